@@ -1,0 +1,51 @@
+#include "cli/command.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <iostream>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "geometry/parallel.h"
+
+namespace mimik::cli {
+namespace {
+std::mutex progress_mutex;
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+}  // namespace
+
+void add_common_options(CLI::App& command, Common& common) {
+    command.add_flag("--json", common.json, "Print the result as one JSON document");
+    command.add_flag("--quiet", common.quiet, "No progress and no remarks");
+    command.add_option("--threads", common.threads, "Threads to use; 0 = one per core")->check(CLI::Range(0, 1024));
+    command.parse_complete_callback([&common] { geometry::set_thread_count(common.threads); });
+}
+
+Progress::Progress(const Common& common, std::string what, std::size_t total)
+    : what_(std::move(what)), total_(total), shown_(!common.quiet && !common.json), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void Progress::advance(const std::string& label) {
+    const std::scoped_lock lock(progress_mutex);
+    ++done_;
+    if (!shown_) return;
+    // A terminal is redrawn ten times a second; a log gets a line every ten seconds.
+    const double now = now_s();
+    if (done_ != total_ && now - last_shown_s_ < (terminal_ ? 0.1 : 10.0)) return;
+    last_shown_s_ = now;
+    if (terminal_) {
+        const std::size_t width = 30, filled = total_ ? width * done_ / total_ : width;
+        std::cerr << fmt::format("\r{} [{}{}] {}/{} {:<24.24}", what_, std::string(filled, '#'),
+                                 std::string(width - filled, ' '), done_, total_, label)
+                  << std::flush;
+    } else {
+        std::cerr << fmt::format("{}: {}/{} {}\n", what_, done_, total_, label);
+    }
+}
+
+Progress::~Progress() {
+    if (shown_ && terminal_ && done_ > 0) std::cerr << '\n';
+}
+
+}  // namespace mimik::cli

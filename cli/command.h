@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace mimik::cli {
+
+/// Options that every command has.
+struct Common {
+    bool json = false;   ///< the result as one JSON document on standard output, nothing else there
+    bool quiet = false;  ///< no progress, no remarks; errors and the result only
+    int threads = 0;     ///< 0 = one per core
+};
+
+/// Adds --json, --quiet, --threads to a subcommand. Call `run` from its callback: it applies the thread count.
+void add_common_options(CLI::App& command, Common& common);
+
+/// Done, done with failures that were listed, bad input, no numerical answer.
+enum ExitCode : int { exit_done = 0, exit_done_with_failures = 1, exit_bad_input = 2, exit_no_answer = 3 };
+
+/// Each command lives in a file of its own (<name>_command.cpp) and is listed here and in main.cpp. The function adds
+/// the subcommand; when it is chosen, its callback stores what main returns in `exit_code`.
+void add_scans_command(CLI::App& app, int& exit_code);
+void add_synthesize_command(CLI::App& app, int& exit_code);
+void add_preprocess_command(CLI::App& app, int& exit_code);
+void add_model_command(CLI::App& app, int& exit_code);
+void add_animate_command(CLI::App& app, int& exit_code);
+void add_evaluate_command(CLI::App& app, int& exit_code);
+void add_warp_command(CLI::App& app, int& exit_code);
+void add_distance_command(CLI::App& app, int& exit_code);
+void add_figure_command(CLI::App& app, int& exit_code);
+void add_catalogue_command(CLI::App& app, int& exit_code);
+
+/// A bar on a terminal (standard error), a line now and then otherwise, nothing when quiet or JSON.
+class Progress {
+public:
+    Progress(const Common& common, std::string what, std::size_t total);
+    ~Progress();
+    void advance(const std::string& label = {});  ///< from any thread
+
+private:
+    std::string what_;
+    std::size_t total_ = 0, done_ = 0;
+    bool shown_ = false, terminal_ = false;
+    double last_shown_s_ = 0;
+};
+
+}  // namespace mimik::cli

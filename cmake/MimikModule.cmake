@@ -1,0 +1,47 @@
+# One folder = one static library `mimik_<name>`, alias and exported name `mimik::<name>`.
+#
+#   mimik_add_module(animation
+#     SOURCES warp.cpp ...
+#     PUBLIC  mimik::modeling
+#     PRIVATE some::library)
+#
+# Headers of the folder are installed as <name>/*.h; include them as "animation/warp.h".
+add_library(mimik_warnings INTERFACE)
+target_compile_options(mimik_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor $<$<BOOL:${MIMIK_WERROR}>:-Werror>)
+if(MIMIK_SANITIZE)
+  add_compile_options(-fsanitize=${MIMIK_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${MIMIK_SANITIZE})
+endif()
+
+function(mimik_add_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  # A folder may link only to folders left of it: the chain has no way back.
+  list(FIND MIMIK_LAYERS ${name} own_place)
+  foreach(dependency IN LISTS ARG_PUBLIC ARG_PRIVATE)
+    if(dependency MATCHES "^mimik::(.+)$")
+      list(FIND MIMIK_LAYERS ${CMAKE_MATCH_1} their_place)
+      if(their_place GREATER_EQUAL own_place)
+        message(FATAL_ERROR "layer '${name}' must not use '${CMAKE_MATCH_1}': layers point one way (${MIMIK_LAYERS})")
+      endif()
+    endif()
+  endforeach()
+
+  add_library(mimik_${name} STATIC ${ARG_SOURCES})
+  add_library(mimik::${name} ALIAS mimik_${name})
+  set_target_properties(mimik_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(mimik_${name} PUBLIC cxx_std_20)
+  target_include_directories(mimik_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/mimik>)
+  target_link_libraries(mimik_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:mimik_warnings>)
+  install(TARGETS mimik_${name} EXPORT mimikTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mimik/${name} FILES_MATCHING PATTERN "*.h")
+endfunction()
+
+# mimik_add_program(mimik SOURCES main.cpp LINK mimik::evaluation ...)
+function(mimik_add_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} mimik_warnings)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mimik::geometry {
+
+/// The whole file. @throws InputError if it is missing, unreadable, a folder, or larger than `max_bytes` (the message
+/// gives both sizes).
+[[nodiscard]] std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file,
+                                                   std::uintmax_t max_bytes = std::uintmax_t{1} << 31);
+[[nodiscard]] std::string read_text(const std::filesystem::path& file, std::uintmax_t max_bytes = std::uintmax_t{1} << 28);
+
+/// Writes to a temporary beside `file`, then renames: nobody ever sees half a file. Folders are made. The stream has the
+/// classic locale. @throws InputError naming the file if it cannot be written.
+void write_atomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
+void write_atomically(const std::filesystem::path& file, std::string_view content);
+
+}  // namespace mimik::geometry

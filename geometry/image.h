@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mimik::geometry {
+
+/// 8-bit RGB, row 0 at the top.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb;  ///< [(row * width + col) * 3 + channel]
+};
+
+/// Any 8- or 16-bit PNG (grey, palette, alpha are converted). @throws InputError naming the file and what is wrong;
+/// images of more than 100 million pixels are refused before they are decoded.
+[[nodiscard]] Image read_png(const std::filesystem::path& file);
+[[nodiscard]] Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name);
+void write_png(const std::filesystem::path& file, const Image& image);
+[[nodiscard]] std::vector<std::uint8_t> encode_png(const Image& image);
+/// Width and height from the header alone.
+[[nodiscard]] std::array<int, 2> png_size(const std::filesystem::path& file);
+
+}  // namespace mimik::geometry

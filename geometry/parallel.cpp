@@ -1,0 +1,36 @@
+#include "geometry/parallel.h"
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+namespace mimik::geometry {
+namespace {
+std::unique_ptr<tbb::global_control>& control() {
+    static std::unique_ptr<tbb::global_control> instance;
+    return instance;
+}
+}  // namespace
+
+void set_thread_count(int threads) {
+    const auto limit = static_cast<std::size_t>(threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency()));
+    control().reset();
+    control() = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, limit);
+}
+
+int thread_count() {
+    return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+    grain = std::max<std::size_t>(1, grain);
+    const std::size_t pieces = (count + grain - 1) / grain;
+    const auto run = [&](std::size_t piece) { body(piece * grain, std::min(count, (piece + 1) * grain)); };
+    if (pieces == 1) return run(0);
+    tbb::parallel_for(std::size_t{0}, pieces, run);
+}
+
+}  // namespace mimik::geometry

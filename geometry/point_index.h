@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "geometry/types.h"
+
+namespace mimik::geometry {
+
+/// Nearest points of a cloud: build once, ask often, from any thread. Ties go to the lower index.
+class PointIndex {
+public:
+    /// @throws InputError if there is no point or one is not finite.
+    explicit PointIndex(std::span<const Point> points_mm);
+    ~PointIndex();
+    PointIndex(PointIndex&&) noexcept;
+    PointIndex& operator=(PointIndex&&) noexcept;
+
+    struct Neighbour {
+        std::size_t index = 0;
+        double distance_mm = 0.0;
+    };
+    [[nodiscard]] Neighbour nearest(const Point& query_mm) const;
+    [[nodiscard]] std::vector<Neighbour> nearest(std::span<const Point> queries_mm) const;  ///< parallel
+    /// The k nearest, nearest first (fewer if the cloud is smaller).
+    [[nodiscard]] std::vector<Neighbour> nearest(const Point& query_mm, std::size_t k) const;
+    [[nodiscard]] std::vector<Neighbour> within(const Point& query_mm, double radius_mm) const;  ///< nearest first
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mimik::geometry
