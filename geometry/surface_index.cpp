@@ -1,0 +1,497 @@
+#include "geometry/surface_index.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+#include "geometry/parallel.h"
+
+namespace mimik::geometry {
+namespace {
+
+constexpr std::uint32_t width = 8;  // children per node: two SSE or one AVX register of floats
+constexpr double max_coordinate_mm = 1e9;
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+// Boxes of the children, relative to the surface's centre and rounded outwards. Unused children have an empty box,
+// which is infinitely far from everything.
+struct Node {
+    std::array<std::array<float, width>, 3> low;
+    std::array<std::array<float, width>, 3> high;
+    std::array<std::uint32_t, width> child;  // a node, or in a leaf the slot of a triangle
+    bool leaf = false;
+};
+
+// What measuring needs, in the order of the leaves; b and c as edges from a.
+struct Corners {
+    Point a;
+    Vector ab, ac;
+    std::uint32_t triangle = 0;
+};
+
+struct Box {
+    Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
+    Eigen::Array3f high = Eigen::Array3f::Constant(-std::numeric_limits<float>::infinity());
+    void add(const Box& other) {
+        low = low.min(other.low);
+        high = high.max(other.high);
+    }
+};
+
+// A float is within half an ulp of the double it stands for; widened by a whole one it is on the safe side of it.
+float below(double value) {
+    const auto f = static_cast<float>(value);
+    return f - std::abs(f) * 1.2e-7F - 1e-30F;
+}
+float above(double value) {
+    const auto f = static_cast<float>(value);
+    return f + std::abs(f) * 1.2e-7F + 1e-30F;
+}
+
+struct Measured {
+    double squared_mm2 = std::numeric_limits<double>::infinity();
+    std::uint32_t slot = none;
+};
+
+struct Foot {
+    double squared_mm2 = 0.0;
+    Vector from_a = Vector::Zero();  // foot - a
+    double b = 0, c = 0;             // weights; exactly 0 (or b + c exactly 1) on an edge
+    int edge = -1;                   // 0: ab, 1: ac, 2: bc, -1: inside
+};
+
+// Closest point of a segment from the origin of `to_query` along `edge`.
+double along(const Vector& to_query, const Vector& edge) {
+    const double length2 = edge.squaredNorm();
+    const double t = to_query.dot(edge);
+    return t <= 0.0 || length2 == 0.0 ? 0.0 : (t >= length2 ? 1.0 : t / length2);
+}
+
+// Inside the prism over the triangle the distance is that to its plane; otherwise the closest point lies on an edge
+// whose outer side holds the query. Weights come from the normal (error ~ eps / aspect ratio) and not from the Gram
+// determinant (eps / aspect ratio squared), so slivers do no harm; without area only the edges are measured.
+Foot measure(const Corners& t, const Point& query) {
+    const Vector ap = query - t.a;
+    const Vector normal = t.ab.cross(t.ac);
+    const double area2 = normal.squaredNorm();
+    const double b = normal.dot(ap.cross(t.ac));
+    const double c = normal.dot(t.ab.cross(ap));
+    const double a = area2 - b - c;
+    const bool flat = area2 <= 1e-28 * t.ab.squaredNorm() * t.ac.squaredNorm();
+    if (!flat && a > 0.0 && b > 0.0 && c > 0.0) {
+        const double height = normal.dot(ap) / area2;
+        return {height * height * area2, ap - height * normal, b / area2, c / area2, -1};
+    }
+    Foot best;
+    best.squared_mm2 = std::numeric_limits<double>::infinity();
+    const auto consider = [&](int edge, double s, const Vector& from_a) {
+        const double squared = (ap - from_a).squaredNorm();
+        if (squared < best.squared_mm2)
+            best = {squared, from_a, edge == 0 ? s : (edge == 2 ? 1.0 - s : 0.0), edge == 0 ? 0.0 : s, edge};
+    };
+    if (flat || c <= 0.0) {
+        const double s = along(ap, t.ab);
+        consider(0, s, s * t.ab);
+    }
+    if (flat || b <= 0.0) {
+        const double s = along(ap, t.ac);
+        consider(1, s, s * t.ac);
+    }
+    if (flat || a <= 0.0) {
+        const Vector bc = t.ac - t.ab;
+        const double s = along(ap - t.ab, bc);
+        consider(2, s, t.ab + s * bc);
+    }
+    return best;
+}
+
+struct PositionHash {
+    std::size_t operator()(const std::array<double, 3>& p) const {
+        std::uint64_t h = 0x9E3779B97F4A7C15ULL;
+        for (const double value : p) {
+            std::uint64_t bits = 0;
+            std::memcpy(&bits, &value, sizeof bits);
+            h = (h ^ bits) * 0xFF51AFD7ED558CCDULL;
+            h ^= h >> 32;
+        }
+        return h;
+    }
+};
+
+}  // namespace
+
+struct SurfaceIndex::Impl {
+    std::vector<Point> vertices;
+    std::vector<Triangle> triangles;
+    std::vector<Node> nodes;
+    std::vector<Corners> slots;
+    Point centre = Point::Zero();
+
+    // Only those who ask for borders pay for them.
+    mutable std::once_flag border_once;
+    mutable std::vector<std::uint8_t> border_edges;  // per triangle: bit k = the edge from corner k to corner k + 1
+    mutable std::vector<std::uint8_t> border_vertices;
+
+    Impl(std::span<const Point> vertices_mm, std::span<const Triangle> triangles_)
+        : vertices(vertices_mm.begin(), vertices_mm.end()), triangles(triangles_.begin(), triangles_.end()) {
+        check();
+        build();
+    }
+
+    void check() const {
+        if (triangles.empty())
+            throw InputError("the surface has no triangle; give a mesh with faces, not a point cloud");
+        for (std::size_t t = 0; t < triangles.size(); ++t)
+            for (const auto v : triangles[t]) {
+                if (v >= vertices.size())
+                    throw InputError(fmt::format("triangle {} of the surface names vertex {}, but there are only {}", t,
+                                                 v, vertices.size()));
+                // Written so that NaN fails too.
+                if (!(vertices[v].cwiseAbs().maxCoeff() <= max_coordinate_mm) || !vertices[v].allFinite())
+                    throw InputError(
+                        fmt::format("vertex {} of the surface is ({}, {}, {}); coordinates must be finite and "
+                                    "below 1e9 mm: leave out such triangles",
+                                    v, vertices[v].x(), vertices[v].y(), vertices[v].z()));
+            }
+    }
+
+    struct Item {
+        Eigen::Array3f middle;  // sum of the three corners: only its order counts
+        std::uint32_t triangle = 0;
+    };
+
+    void build() {
+        Point low = vertices[triangles[0][0]], high = low;
+        for (const auto& t : triangles)
+            for (const auto v : t) {
+                low = low.cwiseMin(vertices[v]);
+                high = high.cwiseMax(vertices[v]);
+            }
+        centre = 0.5 * (low + high);
+        std::vector<Item> items(triangles.size());
+        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+            const auto& [a, b, c] = triangles[t];
+            items[t] = {(vertices[a] + vertices[b] + vertices[c] - 3.0 * centre).cast<float>().array(), t};
+        }
+        slots.reserve(triangles.size());
+        nodes.reserve(triangles.size() / 7 + 16);
+        nodes.emplace_back();
+        fill(0, items);
+    }
+
+    // Splits at the median of the longest side into `parts` runs of `capacity` items (the last may be shorter).
+    static void split(std::span<Item> items, std::uint32_t parts, std::size_t capacity,
+                      std::vector<std::span<Item>>& runs) {
+        if (parts == 1) {
+            runs.push_back(items);
+            return;
+        }
+        Eigen::Array3f low = items[0].middle, high = low;
+        for (const auto& item : items) {
+            low = low.min(item.middle);
+            high = high.max(item.middle);
+        }
+        Eigen::Index axis = 0;
+        (high - low).maxCoeff(&axis);
+        const std::size_t left = parts / 2 * capacity;
+        std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(left), items.end(),
+                         [axis](const Item& p, const Item& q) {
+                             return p.middle[axis] != q.middle[axis] ? p.middle[axis] < q.middle[axis]
+                                                                     : p.triangle < q.triangle;
+                         });
+        split(items.first(left), parts / 2, capacity, runs);
+        split(items.subspan(left), parts - parts / 2, capacity, runs);
+    }
+
+    Box fill(std::uint32_t node, std::span<Item> items) {
+        std::array<Box, width> boxes;
+        std::array<std::uint32_t, width> children{};
+        Box whole;
+        std::size_t capacity = 1;
+        while (capacity * width < items.size()) capacity *= width;
+        const bool leaf = capacity == 1;
+        if (leaf) {
+            for (std::size_t k = 0; k < items.size(); ++k) {
+                const auto t = items[k].triangle;
+                const Point a = vertices[triangles[t][0]] - centre, b = vertices[triangles[t][1]] - centre,
+                            c = vertices[triangles[t][2]] - centre;
+                const Point low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+                for (int axis = 0; axis < 3; ++axis) {
+                    boxes[k].low[axis] = below(low[axis]);
+                    boxes[k].high[axis] = above(high[axis]);
+                }
+                children[k] = static_cast<std::uint32_t>(slots.size());
+                const Point& corner = vertices[triangles[t][0]];
+                slots.push_back({corner, vertices[triangles[t][1]] - corner, vertices[triangles[t][2]] - corner, t});
+                whole.add(boxes[k]);
+            }
+        } else {
+            std::vector<std::span<Item>> runs;
+            split(items, static_cast<std::uint32_t>((items.size() + capacity - 1) / capacity), capacity, runs);
+            for (std::size_t k = 0; k < runs.size(); ++k) {
+                children[k] = static_cast<std::uint32_t>(nodes.size());
+                nodes.emplace_back();
+                boxes[k] = fill(children[k], runs[k]);
+                whole.add(boxes[k]);
+            }
+        }
+        for (std::size_t k = 0; k < width; ++k)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                nodes[node].low[axis][k] = boxes[k].low[static_cast<Eigen::Index>(axis)];
+                nodes[node].high[axis][k] = boxes[k].high[static_cast<Eigen::Index>(axis)];
+            }
+        nodes[node].child = children;
+        nodes[node].leaf = leaf;
+        return whole;
+    }
+
+    // Depth first, near children first. `best` may hold an upper bound from a neighbouring query's triangle. A box is
+    // left out only if it is strictly farther than the best triangle, so that ties reach the comparison of indices.
+    void search(const Point& query, Measured& best) const {
+        struct Entry {
+            float bound;
+            std::uint32_t node;
+        };
+        std::array<float, 3> q_low{}, q_high{};
+        for (int axis = 0; axis < 3; ++axis) {
+            q_low[static_cast<std::size_t>(axis)] = below(query[axis] - centre[axis]);
+            q_high[static_cast<std::size_t>(axis)] = above(query[axis] - centre[axis]);
+        }
+        float limit = upper(best.squared_mm2);
+        std::array<Entry, 256> stack;  // at most 7 waiting per level, 11 levels for 2^32 triangles
+        std::size_t waiting = 0;
+        stack[waiting++] = {0.0F, 0};
+        while (waiting > 0) {
+            const Entry entry = stack[--waiting];
+            if (entry.bound > limit) continue;
+            const Node& node = nodes[entry.node];
+            std::array<float, width> bound;
+            lower_bounds(node, q_low, q_high, bound);
+            if (node.leaf) {
+                for (std::size_t k = 0; k < width; ++k) {
+                    if (!(bound[k] <= limit)) continue;
+                    const std::uint32_t slot = node.child[k];
+                    const double squared = measure(slots[slot], query).squared_mm2;
+                    if (squared < best.squared_mm2 ||
+                        (squared == best.squared_mm2 && slots[slot].triangle < slots[best.slot].triangle)) {
+                        best = {squared, slot};
+                        limit = upper(squared);
+                    }
+                }
+            } else {
+                const std::size_t first = waiting;
+                for (std::size_t k = 0; k < width; ++k) {
+                    if (!(bound[k] <= limit)) continue;
+                    std::size_t place = waiting++;
+                    for (; place > first && stack[place - 1].bound < bound[k]; --place) stack[place] = stack[place - 1];
+                    stack[place] = {bound[k], node.child[k]};
+                }
+            }
+        }
+    }
+
+    static float upper(double squared) { return static_cast<float>(squared) * 1.000001F + 1e-37F; }
+
+    // Squared distances from the query to the boxes, never above the true ones.
+    static void lower_bounds(const Node& node, const std::array<float, 3>& q_low, const std::array<float, 3>& q_high,
+                             std::array<float, width>& bound) {
+        for (std::size_t k = 0; k < width; ++k) bound[k] = 0.0F;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::size_t k = 0; k < width; ++k) {
+                const float before = node.low[axis][k] - q_high[axis];
+                const float after = q_low[axis] - node.high[axis][k];
+                float gap = before > after ? before : after;
+                gap = gap > 0.0F ? gap : 0.0F;
+                bound[k] += gap * gap;
+            }
+        for (std::size_t k = 0; k < width; ++k) bound[k] *= 0.999999F;
+    }
+
+    SurfacePoint answer(const Point& query, std::uint32_t slot) const {
+        const Corners& t = slots[slot];
+        const Foot foot = measure(t, query);
+        SurfacePoint point;
+        point.distance_mm = std::sqrt(foot.squared_mm2);
+        point.triangle = t.triangle;
+        point.barycentric = {foot.edge == 2 ? 0.0 : 1.0 - foot.b - foot.c, foot.b, foot.c};
+        point.position_mm = t.a + foot.from_a;
+        for (int k = 0; k < 3; ++k)  // a corner is returned to the bit
+            if (point.barycentric[k] == 1.0)
+                point.position_mm = vertices[triangles[t.triangle][static_cast<std::size_t>(k)]];
+        return point;
+    }
+
+    void mark_borders() const {
+        std::unordered_map<std::array<double, 3>, std::uint32_t, PositionHash> first_at;
+        first_at.reserve(vertices.size());
+        std::vector<std::uint32_t> welded(vertices.size());
+        for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+            const Point p = vertices[v] + Point::Zero();  // -0 becomes 0
+            welded[v] = first_at.try_emplace({p.x(), p.y(), p.z()}, v).first->second;
+        }
+        const auto key = [&](const Triangle& t, std::size_t k) {
+            const std::uint64_t a = welded[t[k]], b = welded[t[(k + 1) % 3]];
+            return a < b ? a << 32 | b : b << 32 | a;
+        };
+        const auto collapsed = [&](const Triangle& t) {
+            return welded[t[0]] == welded[t[1]] || welded[t[1]] == welded[t[2]] || welded[t[2]] == welded[t[0]];
+        };
+        std::vector<std::uint64_t> edges;
+        edges.reserve(3 * triangles.size());
+        for (const auto& t : triangles)
+            if (!collapsed(t))
+                for (std::size_t k = 0; k < 3; ++k) edges.push_back(key(t, k));
+        std::sort(edges.begin(), edges.end());
+        std::vector<std::uint64_t> single;
+        for (std::size_t e = 0; e < edges.size();) {
+            std::size_t end = e + 1;
+            while (end < edges.size() && edges[end] == edges[e]) ++end;
+            if (end - e == 1) single.push_back(edges[e]);
+            e = end;
+        }
+        std::vector<std::uint8_t> marked(vertices.size(), 0);
+        border_edges.assign(triangles.size(), 0);
+        for (std::size_t t = 0; t < triangles.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (!std::binary_search(single.begin(), single.end(), key(triangles[t], k))) continue;
+                border_edges[t] |= static_cast<std::uint8_t>(1U << k);
+                marked[welded[triangles[t][k]]] = marked[welded[triangles[t][(k + 1) % 3]]] = 1;
+            }
+        border_vertices.resize(vertices.size());
+        for (std::size_t v = 0; v < vertices.size(); ++v) border_vertices[v] = marked[welded[v]];
+    }
+
+    static void check_query(const Point& query, std::size_t index) {
+        if (!(query.cwiseAbs().maxCoeff() <= max_coordinate_mm) || !query.allFinite())
+            throw InputError(
+                fmt::format("query point {} is ({}, {}, {}); closest points need finite coordinates below 1e9 "
+                            "mm: leave out points without a measurement",
+                            index, query.x(), query.y(), query.z()));
+    }
+};
+
+SurfaceIndex::SurfaceIndex(std::span<const Point> vertices_mm, std::span<const Triangle> triangles)
+    : impl_(std::make_unique<Impl>(vertices_mm, triangles)) {}
+SurfaceIndex::~SurfaceIndex() = default;
+SurfaceIndex::SurfaceIndex(SurfaceIndex&&) noexcept = default;
+SurfaceIndex& SurfaceIndex::operator=(SurfaceIndex&&) noexcept = default;
+
+SurfacePoint SurfaceIndex::closest(const Point& query_mm) const {
+    Impl::check_query(query_mm, 0);
+    Measured best;
+    impl_->search(query_mm, best);
+    return impl_->answer(query_mm, best.slot);
+}
+
+std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_mm) const {
+    std::vector<SurfacePoint> answers(queries_mm.size());
+    parallel_for(queries_mm.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        std::uint32_t neighbour = none;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Point& query = queries_mm[i];
+            Impl::check_query(query, i);
+            Measured best;
+            if (neighbour != none) best = {measure(impl_->slots[neighbour], query).squared_mm2, neighbour};
+            impl_->search(query, best);
+            answers[i] = impl_->answer(query, best.slot);
+            neighbour = best.slot;
+        }
+    });
+    return answers;
+}
+
+bool SurfaceIndex::on_border(const SurfacePoint& point) const {
+    std::call_once(impl_->border_once, [this] { impl_->mark_borders(); });
+    constexpr double on_edge = 1e-9;
+    const auto& corners = impl_->triangles[point.triangle];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto at = [&](std::size_t corner) { return point.barycentric[static_cast<Eigen::Index>(corner % 3)]; };
+        if (at(k) >= 1.0 - on_edge) return impl_->border_vertices[corners[k]] != 0;
+        if (at(k + 2) <= on_edge && (impl_->border_edges[point.triangle] >> k & 1U) != 0) return true;
+    }
+    return false;
+}
+
+bool SurfaceIndex::first_hit(const Point& origin_mm, const Vector& direction, SurfacePoint& hit) const {
+    const double length = direction.norm();
+    Impl::check_query(origin_mm, 0);
+    if (!std::isfinite(length) || length == 0.0)
+        throw InputError(fmt::format("ray direction ({}, {}, {}) has no finite length above 0; give another",
+                                     direction.x(), direction.y(), direction.z()));
+    const Vector unit = direction / length;
+    Eigen::Index kz = 0;
+    unit.cwiseAbs().maxCoeff(&kz);
+    const Eigen::Index kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+    const double shear_x = unit[kx] / unit[kz], shear_y = unit[ky] / unit[kz];
+
+    const Point origin = origin_mm - impl_->centre;
+    const Vector inverse = unit.cwiseInverse();
+    double best = std::numeric_limits<double>::infinity();
+    std::uint32_t best_slot = none;
+    Eigen::Vector3d best_weights = Eigen::Vector3d::Zero();
+    const auto test = [&](std::uint32_t slot) {
+        const auto& t = impl_->triangles[impl_->slots[slot].triangle];
+        std::array<double, 3> x{}, y{}, z{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vector p = impl_->vertices[t[k]] - origin_mm;
+            x[k] = p[kx] - shear_x * p[kz];
+            y[k] = p[ky] - shear_y * p[kz];
+            z[k] = p[kz] / unit[kz];
+        }
+        const double u = x[2] * y[1] - y[2] * x[1], v = x[0] * y[2] - y[0] * x[2], w = x[1] * y[0] - y[1] * x[0];
+        if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return;
+        const double sum = u + v + w;
+        if (sum == 0.0) return;
+        const double distance = (u * z[0] + v * z[1] + w * z[2]) / sum;
+        if (!(distance >= 0.0) || distance > best) return;
+        if (distance == best && impl_->slots[slot].triangle > impl_->slots[best_slot].triangle) return;
+        best = distance;
+        best_slot = slot;
+        best_weights = Eigen::Vector3d(u, v, w) / sum;
+    };
+
+    std::vector<std::uint32_t> stack = {0};
+    while (!stack.empty()) {
+        const Node& node = impl_->nodes[stack.back()];
+        stack.pop_back();
+        for (std::size_t k = 0; k < width; ++k) {
+            double enter = 0.0, leave = best;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto i = static_cast<Eigen::Index>(axis);
+                const double low = node.low[axis][k], high = node.high[axis][k];
+                if (unit[i] == 0.0) {
+                    if (origin[i] < low || origin[i] > high) enter = std::numeric_limits<double>::infinity();
+                    continue;
+                }
+                const double p = (low - origin[i]) * inverse[i], q = (high - origin[i]) * inverse[i];
+                enter = std::max(enter, std::min(p, q));
+                leave = std::min(leave, std::max(p, q));
+            }
+            // The slack covers the rounding of the slab distances; boxes of unused children are never entered.
+            if (enter > leave + 1e-12 * std::abs(enter) || node.low[0][k] > node.high[0][k]) continue;
+            if (node.leaf)
+                test(node.child[k]);
+            else
+                stack.push_back(node.child[k]);
+        }
+    }
+    if (best_slot == none) return false;
+    hit.triangle = impl_->slots[best_slot].triangle;
+    hit.barycentric = best_weights;
+    hit.distance_mm = best;
+    hit.position_mm = origin_mm + best * unit;
+    return true;
+}
+
+std::span<const Triangle> SurfaceIndex::triangles() const { return impl_->triangles; }
+std::span<const Point> SurfaceIndex::vertices_mm() const { return impl_->vertices; }
+
+}  // namespace mimik::geometry
