@@ -15,8 +15,8 @@ namespace mimik::database {
 struct Bnt {
     std::uint16_t rows = 0;
     std::uint16_t cols = 0;
-    double background = -1e9;  ///< the file's zmin: marks cells where nothing was measured
-    std::string texture_file;  ///< as stored; checked to be a plain file name when converted to a scan
+    double background = -1e9;           ///< the file's zmin: marks cells where nothing was measured
+    std::string texture_file;           ///< as stored; checked to be a plain file name when converted to a scan
     std::vector<double> x, y, z, u, v;  ///< rows * cols each, row-major, row 0 lowest; v counts from the image's top
 };
 

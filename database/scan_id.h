@@ -9,27 +9,41 @@ namespace mimik::database {
 
 enum class Side { both, left, right };  ///< the subject's own
 
+[[nodiscard]] std::string to_string(Side side);        ///< "both", "left", "right"
+[[nodiscard]] Side parse_side(std::string_view text);  ///< the same words, or "l", "r"; throws InputError
+[[nodiscard]] Side opposite(Side side);
+
 /// Name of one scan: bs000_LFAU_12L_0 = subject "bs000", group "LFAU", code "12L", repetition 0.
-/// Unknown groups and codes are kept as they are; codes compare without regard to case.
+/// Unknown groups and codes are kept as they are; all fields compare without regard to case.
 struct ScanId {
     std::string subject;
     std::string group;
     std::string code;
     int repetition = 0;
 
-    [[nodiscard]] std::string name() const;  ///< "bs000_LFAU_12L_0"
-    [[nodiscard]] bool neutral() const;      ///< group "N"
+    [[nodiscard]] std::string name() const;        ///< "bs000_LFAU_12L_0"
+    [[nodiscard]] std::string expression() const;  ///< "LFAU_12L"
+    [[nodiscard]] bool neutral() const;            ///< group "N"
     /// Code in upper case without side or intensity: "12L" -> 12; "A12A15" and emotions -> empty.
     [[nodiscard]] std::optional<int> action_unit() const;
-    [[nodiscard]] Side side() const;        ///< from a trailing L or R of an AU code; else both
+    [[nodiscard]] Side side() const;           ///< from a trailing L or R of an AU code; else both
     [[nodiscard]] bool low_intensity() const;  ///< a trailing LW
-    auto operator<=>(const ScanId&) const = default;
+    [[nodiscard]] ScanId mirrored() const;     ///< 12L <-> 12R; others unchanged
+
+    /// By subject, neutral first, then group, code (numbers as numbers: 9 before 10), repetition.
+    std::weak_ordering operator<=>(const ScanId& other) const;
+    bool operator==(const ScanId& other) const { return (*this <=> other) == 0; }
 };
 
 /// Four fields separated by '_'; empty if the name is not of that form.
 [[nodiscard]] std::optional<ScanId> parse_scan_name(std::string_view stem);
 
-/// "UFAU" for upper-face AUs (1, 2, 4, 5, 6, 7, 43, 44 ...), "LFAU" for the rest.
+/// Group and code (subject and repetition left empty) from what people write for an expression: "N", "neutral",
+/// "LFAU_12", "AU12", "au12_L", "12L", "12LW", "AU22+AU25", "A22A25", "HAPPY". What is none of these is kept, in upper
+/// case, in group "OTHER". Empty if nothing is left of it.
+[[nodiscard]] std::optional<ScanId> parse_expression(std::string_view text);
+
+/// "UFAU" for upper-face AUs (1, 2, 4, 5, 6, 7, 41 to 46), "LFAU" for the rest.
 [[nodiscard]] std::string group_of_action_unit(int action_unit);
 
 }  // namespace mimik::database

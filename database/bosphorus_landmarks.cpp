@@ -1,0 +1,454 @@
+#include "database/bosphorus_landmarks.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "database/scan_id.h"
+#include "geometry/errors.h"
+#include "geometry/file.h"
+
+namespace mimik::database {
+namespace {
+
+constexpr std::size_t max_landmarks = 10'000;
+constexpr std::uintmax_t max_file_bytes = 4 << 20;
+
+bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+/// Trimmed, runs of blanks as one.
+std::string tidied(std::string_view line) {
+    std::string result;
+    for (const char c : line) {
+        if (!blank(c))
+            result += c;
+        else if (!result.empty() && result.back() != ' ')
+            result += ' ';
+    }
+    if (!result.empty() && result.back() == ' ') result.pop_back();
+    return result;
+}
+
+/// Lines one by one, tidied, with their number for messages.
+class Lines {
+public:
+    Lines(std::string_view text, const std::string& name) : text_(text), name_(name) {
+        if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+    }
+    bool next(std::string& line) {
+        if (at_ >= text_.size()) return false;
+        const auto end = std::min(text_.find('\n', at_), text_.size());
+        line = tidied(text_.substr(at_, end - at_));
+        at_ = end + 1;
+        ++number_;
+        return true;
+    }
+    bool next_with_text(std::string& line) {
+        while (next(line))
+            if (!line.empty()) return true;
+        return false;
+    }
+    [[noreturn]] void fail(const std::string& what) const {
+        throw InputError(fmt::format("{}:{}: {}", name_, number_, what));
+    }
+
+private:
+    std::string_view text_;
+    const std::string& name_;
+    std::size_t at_ = 0;
+    int number_ = 0;
+};
+
+std::string shown(const std::string& text) { return text.size() > 60 ? text.substr(0, 60) + "..." : text; }
+
+/// `count` numbers separated by blanks, and nothing else.
+template <std::size_t count>
+std::optional<std::array<double, count>> numbers(std::string_view line) {
+    std::array<double, count> values{};
+    for (auto& value : values) {
+        while (!line.empty() && blank(line.front())) line.remove_prefix(1);
+        const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
+        if (error != std::errc{}) return std::nullopt;
+        line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+        if (!line.empty() && !blank(line.front())) return std::nullopt;
+    }
+    return line.empty() ? std::optional(values) : std::nullopt;
+}
+
+/// Both formats begin alike: comments, perhaps a '*' block up to the next empty line, then "22 landmarks:".
+std::size_t read_count(Lines& lines) {
+    std::string line;
+    while (lines.next_with_text(line)) {
+        if (line.front() == '#') continue;
+        if (line.front() == '*') {
+            while (lines.next(line) && !line.empty()) {
+            }
+            continue;
+        }
+        long long count = -1;
+        const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), count);
+        if (error != std::errc{} ||
+            std::string_view(end, line.data() + line.size()).find("andmarks") == std::string_view::npos)
+            lines.fail(fmt::format(
+                "'{}' stands where the number of landmarks is expected, such as '22 landmarks:'; the file is "
+                "damaged or of another format",
+                shown(line)));
+        if (count < 0 || static_cast<unsigned long long>(count) > max_landmarks)
+            lines.fail(fmt::format("{} landmarks; a face has 0 to {}", count, max_landmarks));
+        return static_cast<std::size_t>(count);
+    }
+    lines.fail("no line gives the number of landmarks, such as '22 landmarks:'; the file is empty or truncated");
+}
+
+void expect_end(Lines& lines, std::size_t count) {
+    std::string line;
+    if (lines.next_with_text(line))
+        lines.fail(fmt::format("'{}' follows after all {} landmarks; correct the count", shown(line), count));
+}
+
+struct Label {
+    std::string_view label;
+    std::string_view stem;  ///< our name, without the side if it has one
+    Side side;              ///< of the label
+};
+
+// Bosphorus list in its usual order. "Nose peak" is the nose wing, "nose saddle" the side of the nose root.
+constexpr std::array<Label, 26> labels = {{
+    {"Outer left eyebrow", "brow_outer", Side::left},
+    {"Middle left eyebrow", "brow_middle", Side::left},
+    {"Inner left eyebrow", "brow_inner", Side::left},
+    {"Inner right eyebrow", "brow_inner", Side::right},
+    {"Middle right eyebrow", "brow_middle", Side::right},
+    {"Outer right eyebrow", "brow_outer", Side::right},
+    {"Outer left eye corner", "eye_outer", Side::left},
+    {"Inner left eye corner", "eye_inner", Side::left},
+    {"Inner right eye corner", "eye_inner", Side::right},
+    {"Outer right eye corner", "eye_outer", Side::right},
+    {"Nose saddle left", "nose_saddle", Side::left},
+    {"Nose saddle right", "nose_saddle", Side::right},
+    {"Left nose peak", "nose_wing", Side::left},
+    {"Nose tip", "nose_tip", Side::both},
+    {"Right nose peak", "nose_wing", Side::right},
+    {"Left mouth corner", "mouth_corner", Side::left},
+    {"Upper lip outer middle", "upper_lip_outer", Side::both},
+    {"Right mouth corner", "mouth_corner", Side::right},
+    {"Upper lip inner middle", "upper_lip_inner", Side::both},
+    {"Lower lip inner middle", "lower_lip_inner", Side::both},
+    {"Lower lip outer middle", "lower_lip_outer", Side::both},
+    {"Chin middle", "chin", Side::both},
+    {"Left ear lobe", "ear_lobe", Side::left},
+    {"Right ear lobe", "ear_lobe", Side::right},
+    {"Left temple", "temple", Side::left},
+    {"Right temple", "temple", Side::right},
+}};
+
+// Anthropometric points that have a counterpart among the Bosphorus landmarks (Farkas; see docs/formats.md).
+struct AnatomicalName {
+    std::string_view name, abbreviation, stem;
+    bool paired;
+};
+constexpr std::array<AnatomicalName, 8> anatomical_names = {{
+    {"exocanthion", "ex", "eye_outer", true},
+    {"endocanthion", "en", "eye_inner", true},
+    {"alare", "al", "nose_wing", true},
+    {"cheilion", "ch", "mouth_corner", true},
+    {"pronasale", "prn", "nose_tip", false},
+    {"labiale_superius", "ls", "upper_lip_outer", false},
+    {"labiale_inferius", "li", "lower_lip_outer", false},
+    {"pogonion", "pg", "chin", false},
+}};
+
+struct NumberedPoint {
+    int number;  ///< 0-based
+    std::string_view stem;
+    Side side;  ///< image side, as the Bosphorus labels have it
+};
+constexpr std::array<NumberedPoint, 18> numbered_points = {{
+    {17, "brow_outer", Side::left},
+    {19, "brow_middle", Side::left},
+    {21, "brow_inner", Side::left},
+    {22, "brow_inner", Side::right},
+    {24, "brow_middle", Side::right},
+    {26, "brow_outer", Side::right},
+    {36, "eye_outer", Side::left},
+    {39, "eye_inner", Side::left},
+    {42, "eye_inner", Side::right},
+    {45, "eye_outer", Side::right},
+    {30, "nose_tip", Side::both},
+    {48, "mouth_corner", Side::left},
+    {54, "mouth_corner", Side::right},
+    {51, "upper_lip_outer", Side::both},
+    {57, "lower_lip_outer", Side::both},
+    {62, "upper_lip_inner", Side::both},
+    {66, "lower_lip_inner", Side::both},
+    {8, "chin", Side::both},
+}};
+
+/// Lower case, everything but letters and digits as one '_': "Outer left eyebrow" -> "outer_left_eyebrow".
+std::string as_name(std::string_view label) {
+    std::string name;
+    for (const char c : label) {
+        const bool upper = c >= 'A' && c <= 'Z';
+        const bool kept =
+            upper || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80;
+        if (kept)
+            name += upper ? static_cast<char>(c - 'A' + 'a') : c;
+        else if (!name.empty() && name.back() != '_')
+            name += '_';
+    }
+    if (!name.empty() && name.back() == '_') name.pop_back();
+    return name.empty() ? "unnamed" : name;
+}
+
+std::string with_side(std::string_view stem, Side side) {
+    return side == Side::both ? std::string(stem) : fmt::format("{}_{}", stem, to_string(side));
+}
+
+/// A mark whose name may depend on which side its label means.
+struct Recognised {
+    std::string_view stem;
+    Side side = Side::both;
+    bool side_is_the_labels = false;  ///< else it is the subject's own already
+};
+
+std::optional<Recognised> recognise_bosphorus(const std::string& name) {
+    static const auto names = [] {
+        std::array<std::string, labels.size()> result;
+        std::transform(labels.begin(), labels.end(), result.begin(), [](const Label& l) { return as_name(l.label); });
+        return result;
+    }();
+    const auto it = std::find(names.begin(), names.end(), name);
+    if (it == names.end()) return std::nullopt;
+    const auto& label = labels[static_cast<std::size_t>(it - names.begin())];
+    return Recognised{label.stem, label.side, label.side != Side::both};
+}
+
+std::optional<Recognised> recognise_anatomical(std::string_view name) {
+    Side side = Side::both;
+    for (const auto& [suffix, meaning] : {std::pair<std::string_view, Side>{"_left", Side::left},
+                                          {"_right", Side::right},
+                                          {"_l", Side::left},
+                                          {"_r", Side::right}})
+        if (side == Side::both && name.ends_with(suffix)) {
+            side = meaning;
+            name.remove_suffix(suffix.size());
+        }
+    for (const auto& known : anatomical_names)
+        if ((name == known.name || name == known.abbreviation) && known.paired == (side != Side::both))
+            return Recognised{known.stem, side, false};
+    return std::nullopt;
+}
+
+/// Names all marks; where a label's side has to be judged by position, all pairs vote.
+geometry::Landmarks renamed(const geometry::Landmarks& raw, const std::vector<std::optional<Recognised>>& recognised,
+                            SideReport* report) {
+    SideReport sides;
+    struct Pair {
+        std::string_view stem;
+        bool left_is_image_left;
+    };
+    std::vector<Pair> pairs;
+    const auto marks = raw.all();
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        if (!recognised[i] || !recognised[i]->side_is_the_labels || recognised[i]->side != Side::left) continue;
+        for (std::size_t j = 0; j < marks.size(); ++j)
+            if (recognised[j] && recognised[j]->side_is_the_labels && recognised[j]->side == Side::right &&
+                recognised[j]->stem == recognised[i]->stem)
+                pairs.push_back({recognised[i]->stem, marks[i].position_mm.x() < marks[j].position_mm.x()});
+    }
+    const auto image_left =
+        std::count_if(pairs.begin(), pairs.end(), [](const Pair& p) { return p.left_is_image_left; });
+    const auto other = static_cast<std::ptrdiff_t>(pairs.size()) - image_left;
+    if (image_left != other) {
+        sides.left_label_is_subject_right = image_left > other;
+    } else if (const auto eyes =
+                   std::find_if(pairs.begin(), pairs.end(), [](const Pair& p) { return p.stem == "eye_outer"; });
+               eyes != pairs.end()) {
+        sides.left_label_is_subject_right = eyes->left_is_image_left;
+    }
+    for (const auto& pair : pairs) {
+        if (pair.left_is_image_left == sides.left_label_is_subject_right) {
+            ++sides.pairs_agreeing;
+        } else {
+            ++sides.pairs_disagreeing;
+            sides.swapped_pairs.emplace_back(pair.stem);
+        }
+    }
+
+    std::vector<geometry::Landmark> result;
+    result.reserve(marks.size());
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        geometry::Landmark mark = marks[i];
+        if (mark.original_label.empty()) mark.original_label = mark.name;
+        if (recognised[i]) {
+            const auto& known = *recognised[i];
+            const bool mirror = known.side_is_the_labels && sides.left_label_is_subject_right;
+            mark.name = with_side(known.stem, mirror ? opposite(known.side) : known.side);
+        } else {
+            mark.name = as_name(mark.original_label);
+        }
+        result.push_back(std::move(mark));
+    }
+    if (report) *report = std::move(sides);
+    return geometry::Landmarks(std::move(result));
+}
+
+/// 0 or 1 where the labels are exactly the numbers of the 68-point scheme counted from there; else empty.
+std::optional<int> first_number_of_68(const geometry::Landmarks& raw) {
+    if (raw.size() != 68) return std::nullopt;
+    std::array<bool, 69> seen{};
+    for (const auto& mark : raw.all()) {
+        int number = -1;
+        const auto* end = mark.name.data() + mark.name.size();
+        const auto parsed = std::from_chars(mark.name.data(), end, number);
+        if (parsed.ec != std::errc{} || parsed.ptr != end || number < 0 || number > 68) return std::nullopt;
+        seen[static_cast<std::size_t>(number)] = true;
+    }
+    // 68 unique numbers out of 0..68: exactly one is missing.
+    if (!seen[68]) return 0;
+    return seen[0] ? std::nullopt : std::optional(1);
+}
+
+}  // namespace
+
+geometry::Landmarks parse_lm3(std::string_view text, const std::string& name) {
+    Lines lines(text, name);
+    const std::size_t count = read_count(lines);
+    std::vector<geometry::Landmark> marks;
+    std::string label, position;
+    while (marks.size() < count) {
+        if (!lines.next_with_text(label))
+            lines.fail(fmt::format("ends after {} of {} landmarks; the file is truncated: copy it again", marks.size(),
+                                   count));
+        if (!lines.next_with_text(position))
+            lines.fail(
+                fmt::format("ends before the position of '{}'; the file is truncated: copy it again", shown(label)));
+        const auto xyz = numbers<3>(position);
+        if (!xyz || !std::all_of(xyz->begin(), xyz->end(), [](double v) { return std::isfinite(v); }))
+            lines.fail(fmt::format(
+                "'{}' stands where x y z of landmark '{}' are expected; mark it again or delete both lines and "
+                "lower the count",
+                shown(position), shown(label)));
+        marks.push_back({label, {(*xyz)[0], (*xyz)[1], (*xyz)[2]}, label});
+    }
+    expect_end(lines, count);
+    try {
+        return geometry::Landmarks(std::move(marks));
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: {}", name, e.what()));
+    }
+}
+
+geometry::Landmarks read_lm3(const std::filesystem::path& file) {
+    return parse_lm3(geometry::read_text(file, max_file_bytes), file.string());
+}
+
+void write_lm3(const std::filesystem::path& file, const geometry::Landmarks& bosphorus_labelled) {
+    std::string text =
+        fmt::format("# 3D landmarks in mm, frame of the .bnt scan\n\n{} landmarks:\n", bosphorus_labelled.size());
+    for (const auto& mark : bosphorus_labelled.all())
+        text += fmt::format("{}\n{} {} {}\n", tidied(mark.name), mark.position_mm.x(), mark.position_mm.y(),
+                            mark.position_mm.z());
+    geometry::write_atomically(file, text);
+}
+
+std::vector<ImageLandmark> parse_lm2(std::string_view text, const std::string& name) {
+    Lines lines(text, name);
+    const std::size_t count = read_count(lines);
+    const auto expect_heading = [&](std::string_view begin, std::string_view example) {
+        std::string line;
+        if (!lines.next_with_text(line))
+            lines.fail(fmt::format("ends before '{}'; the file is truncated: copy it again", example));
+        if (!as_name(line).starts_with(begin))
+            lines.fail(fmt::format("'{}' stands where '{}' is expected; the count may be wrong", shown(line), example));
+    };
+    std::vector<ImageLandmark> marks;
+    std::string line;
+    expect_heading("labels", "Labels:");
+    while (marks.size() < count) {
+        if (!lines.next_with_text(line))
+            lines.fail(
+                fmt::format("ends after {} of {} labels; the file is truncated: copy it again", marks.size(), count));
+        marks.push_back({line, 0, 0});
+    }
+    expect_heading("2d", "2D Image coordinates:");
+    for (auto& mark : marks) {
+        if (!lines.next_with_text(line))
+            lines.fail(fmt::format("ends before the position of '{}'; the file is truncated: copy it again",
+                                   shown(mark.label)));
+        const auto xy = numbers<2>(line);
+        if (!xy || !std::isfinite((*xy)[0]) || !std::isfinite((*xy)[1]))
+            lines.fail(fmt::format("'{}' stands where x y of landmark '{}' are expected; mark it again", shown(line),
+                                   shown(mark.label)));
+        mark.column = (*xy)[0];
+        mark.row = (*xy)[1];
+    }
+    expect_end(lines, count);
+    return marks;
+}
+
+std::vector<ImageLandmark> read_lm2(const std::filesystem::path& file) {
+    return parse_lm2(geometry::read_text(file, max_file_bytes), file.string());
+}
+
+void write_lm2(const std::filesystem::path& file, const std::vector<ImageLandmark>& marks) {
+    std::string text =
+        fmt::format("# 2D landmarks in pixels of the texture image\n\n{} landmarks:\n\nLabels:\n", marks.size());
+    for (const auto& mark : marks) text += tidied(mark.label) + '\n';
+    text += "\n2D Image coordinates:\n";
+    for (const auto& mark : marks) text += fmt::format("{} {}\n", mark.column, mark.row);
+    geometry::write_atomically(file, text);
+}
+
+geometry::Landmarks from_bosphorus_labels(const geometry::Landmarks& raw, SideReport* report) {
+    std::vector<std::optional<Recognised>> recognised;
+    for (const auto& mark : raw.all()) recognised.push_back(recognise_bosphorus(as_name(mark.name)));
+    return renamed(raw, recognised, report);
+}
+
+geometry::Landmarks from_any_labels(const geometry::Landmarks& raw, SideReport* report) {
+    std::vector<std::optional<Recognised>> recognised;
+    if (const auto first = first_number_of_68(raw)) {
+        for (const auto& mark : raw.all()) {
+            const int number = std::stoi(mark.name) - *first;
+            const auto it = std::find_if(numbered_points.begin(), numbered_points.end(),
+                                         [&](const NumberedPoint& p) { return p.number == number; });
+            recognised.push_back(it == numbered_points.end()
+                                     ? std::nullopt
+                                     : std::optional(Recognised{it->stem, it->side, it->side != Side::both}));
+        }
+    } else {
+        for (const auto& mark : raw.all()) {
+            const std::string name = as_name(mark.name);
+            auto known = recognise_bosphorus(name);
+            recognised.push_back(known ? known : recognise_anatomical(name));
+        }
+    }
+    return renamed(raw, recognised, report);
+}
+
+geometry::Landmarks to_bosphorus_labels(const geometry::Landmarks& landmarks) {
+    std::vector<geometry::Landmark> marks;
+    std::vector<std::string> taken;
+    for (const auto& label : labels) {
+        // A label's left is image-left: the subject's right.
+        const std::string name = with_side(label.stem, opposite(label.side));
+        if (const auto* mark = landmarks.find(name)) {
+            marks.push_back({std::string(label.label), mark->position_mm, std::string(label.label)});
+            taken.push_back(name);
+        }
+    }
+    for (const auto& mark : landmarks.all()) {
+        if (std::find(taken.begin(), taken.end(), mark.name) != taken.end()) continue;
+        const std::string label = mark.original_label.empty() ? mark.name : mark.original_label;
+        marks.push_back({label, mark.position_mm, label});
+    }
+    return geometry::Landmarks(std::move(marks));
+}
+
+}  // namespace mimik::database

@@ -1,0 +1,193 @@
+#include "database/scan_id.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+
+namespace mimik::database {
+namespace {
+
+char upper(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
+bool digit(char c) { return c >= '0' && c <= '9'; }
+
+std::string upper_case(std::string_view text) {
+    std::string result(text);
+    std::transform(result.begin(), result.end(), result.begin(), upper);
+    return result;
+}
+
+std::weak_ordering compare_ignoring_case(std::string_view a, std::string_view b) {
+    return std::lexicographical_compare_three_way(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+        return std::weak_ordering(upper(x) <=> upper(y));
+    });
+}
+
+/// The number a code begins with (at most three digits, as AUs have), -1 if it begins otherwise.
+int leading_number(std::string_view code) {
+    const auto end = static_cast<std::size_t>(std::find_if_not(code.begin(), code.end(), digit) - code.begin());
+    if (end == 0 || end > 3) return -1;
+    int number = 0;
+    std::from_chars(code.data(), code.data() + end, number);
+    return number;
+}
+
+struct ActionUnitCode {
+    int number = 0;
+    Side side = Side::both;
+    bool low = false;
+};
+
+/// 12, 12L, 12R, 12LW.
+std::optional<ActionUnitCode> parse_action_unit_code(std::string_view text) {
+    const std::string code = upper_case(text);
+    const int number = leading_number(code);
+    if (number <= 0) return std::nullopt;
+    const std::string_view suffix = std::string_view(code).substr(
+        static_cast<std::size_t>(std::find_if_not(code.begin(), code.end(), digit) - code.begin()));
+    if (suffix.empty()) return ActionUnitCode{number, Side::both, false};
+    if (suffix == "L") return ActionUnitCode{number, Side::left, false};
+    if (suffix == "R") return ActionUnitCode{number, Side::right, false};
+    if (suffix == "LW") return ActionUnitCode{number, Side::both, true};
+    return std::nullopt;
+}
+
+// Groups whose codes are words or head rotations: a number in them is no action unit.
+bool may_hold_action_units(std::string_view group) {
+    static constexpr std::array<std::string_view, 8> others = {"N", "E", "CAU", "YR", "PR", "CR", "O", "IGN"};
+    return std::find(others.begin(), others.end(), upper_case(group)) == others.end();
+}
+
+bool known_group(std::string_view group) {
+    static constexpr std::array<std::string_view, 11> groups = {"N",  "E",  "LFAU", "UFAU", "CAU",  "YR",
+                                                                "PR", "CR", "O",    "IGN",  "OTHER"};
+    return std::find(groups.begin(), groups.end(), group) != groups.end();
+}
+
+std::vector<std::string_view> split(std::string_view text, char at) {
+    std::vector<std::string_view> parts;
+    for (std::size_t begin = 0;;) {
+        const auto end = text.find(at, begin);
+        parts.push_back(text.substr(begin, end == std::string_view::npos ? end : end - begin));
+        if (end == std::string_view::npos) return parts;
+        begin = end + 1;
+    }
+}
+
+}  // namespace
+
+std::string to_string(Side side) { return side == Side::left ? "left" : side == Side::right ? "right" : "both"; }
+
+Side parse_side(std::string_view text) {
+    const std::string word = upper_case(text);
+    if (word == "LEFT" || word == "L") return Side::left;
+    if (word == "RIGHT" || word == "R") return Side::right;
+    if (word == "BOTH") return Side::both;
+    throw InputError(fmt::format("side '{}' is unknown; give left, right (the subject's own) or both", text));
+}
+
+Side opposite(Side side) { return side == Side::left ? Side::right : side == Side::right ? Side::left : Side::both; }
+
+std::string ScanId::name() const { return fmt::format("{}_{}_{}_{}", subject, group, code, repetition); }
+std::string ScanId::expression() const { return fmt::format("{}_{}", group, code); }
+bool ScanId::neutral() const { return upper_case(group) == "N"; }
+
+std::optional<int> ScanId::action_unit() const {
+    if (!may_hold_action_units(group)) return std::nullopt;
+    const auto parsed = parse_action_unit_code(code);
+    return parsed ? std::optional(parsed->number) : std::nullopt;
+}
+
+Side ScanId::side() const {
+    if (!may_hold_action_units(group)) return Side::both;
+    const auto parsed = parse_action_unit_code(code);
+    return parsed ? parsed->side : Side::both;
+}
+
+bool ScanId::low_intensity() const {
+    const std::string text = upper_case(code);
+    return text.size() > 2 && text.ends_with("LW") && digit(text[text.size() - 3]);
+}
+
+ScanId ScanId::mirrored() const {
+    ScanId result = *this;
+    if (side() == Side::left) result.code.back() = code.back() == 'l' ? 'r' : 'R';
+    if (side() == Side::right) result.code.back() = code.back() == 'r' ? 'l' : 'L';
+    return result;
+}
+
+std::weak_ordering ScanId::operator<=>(const ScanId& other) const {
+    if (const auto order = compare_ignoring_case(subject, other.subject); order != 0) return order;
+    if (const auto order = std::weak_ordering(other.neutral() <=> neutral()); order != 0) return order;
+    if (const auto order = compare_ignoring_case(group, other.group); order != 0) return order;
+    if (const auto order = std::weak_ordering(leading_number(code) <=> leading_number(other.code)); order != 0)
+        return order;
+    if (const auto order = compare_ignoring_case(code, other.code); order != 0) return order;
+    return repetition <=> other.repetition;
+}
+
+std::optional<ScanId> parse_scan_name(std::string_view stem) {
+    const auto parts = split(stem, '_');
+    if (parts.size() != 4 || std::any_of(parts.begin(), parts.end(), [](auto part) { return part.empty(); }))
+        return std::nullopt;
+    const auto last = parts[3];
+    if (last.size() > 6 || !std::all_of(last.begin(), last.end(), digit)) return std::nullopt;
+    ScanId id{std::string(parts[0]), std::string(parts[1]), std::string(parts[2]), 0};
+    std::from_chars(last.data(), last.data() + last.size(), id.repetition);
+    return id;
+}
+
+std::optional<ScanId> parse_expression(std::string_view text) {
+    std::string word;  // upper case; blanks and hyphens as the underscore that separates fields
+    for (const char c : text) word += c == ' ' || c == '-' || c == '\t' ? '_' : upper(c);
+    const auto first = word.find_first_not_of('_');
+    if (first == std::string::npos) return std::nullopt;
+    word = word.substr(first, word.find_last_not_of('_') - first + 1);
+    if (word == "N" || word == "NEUTRAL" || word == "N_N") return ScanId{"", "N", "N", 0};
+
+    if (const auto cut = word.find('_');
+        cut != std::string::npos && known_group(word.substr(0, cut)) && word.find('_', cut + 1) == std::string::npos)
+        return ScanId{"", word.substr(0, cut), word.substr(cut + 1), 0};
+
+    for (const std::string_view emotion : {"ANGER", "DISGUST", "FEAR", "HAPPY", "SADNESS", "SURPRISE"})
+        if (word == emotion) return ScanId{"", "E", word, 0};
+    if (word == "HAPPINESS" || word == "JOY") return ScanId{"", "E", "HAPPY", 0};
+    if (word == "SAD") return ScanId{"", "E", "SADNESS", 0};
+
+    // "AU12_L" -> "12L"; "AU22+AU25" -> "A22A25".
+    std::string compact;
+    std::copy_if(word.begin(), word.end(), std::back_inserter(compact), [](char c) { return c != '_'; });
+    const auto without_prefix = [](std::string_view part) {
+        if (part.starts_with("AU")) part.remove_prefix(2);
+        return part;
+    };
+    const auto parts = split(compact, '+');
+    if (parts.size() == 1) {
+        if (const auto code = without_prefix(compact); parse_action_unit_code(code))
+            return ScanId{"", group_of_action_unit(leading_number(code)), std::string(code), 0};
+        // Bosphorus combinations: A22A25.
+        if (compact.size() > 2 && compact[0] == 'A' && digit(compact[1]) && compact.find('A', 1) != std::string::npos)
+            return ScanId{"", "CAU", compact, 0};
+    } else if (std::all_of(parts.begin(), parts.end(),
+                           [&](auto p) { return parse_action_unit_code(without_prefix(p)).has_value(); })) {
+        std::string code;
+        for (const auto part : parts) code.append("A").append(without_prefix(part));
+        return ScanId{"", "CAU", code, 0};
+    }
+
+    std::string kept;
+    for (const char c : word) kept += std::isalnum(static_cast<unsigned char>(c)) ? c : '-';
+    return ScanId{"", "OTHER", kept, 0};
+}
+
+std::string group_of_action_unit(int action_unit) {
+    static constexpr std::array upper_face = {1, 2, 4, 5, 6, 7, 41, 42, 43, 44, 45, 46};
+    return std::find(upper_face.begin(), upper_face.end(), action_unit) != upper_face.end() ? "UFAU" : "LFAU";
+}
+
+}  // namespace mimik::database
