@@ -1,0 +1,246 @@
+#include "geometry/thin_plate_spline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "geometry/errors.h"
+#include "geometry/parallel.h"
+
+namespace mimik::geometry {
+namespace {
+
+double kernel_value(SplineKernel kernel, double squared_distance) {
+    if (kernel == SplineKernel::r) return -std::sqrt(squared_distance);
+    return squared_distance > 0 ? squared_distance * std::log(squared_distance) : 0.0;
+}
+
+/// U'(r) / r: the gradient of U is this times the difference of the points.
+double kernel_slope_over_distance(SplineKernel kernel, double squared_distance) {
+    if (squared_distance == 0) return 0;  // r: mean over all directions; r^2 ln r^2: the limit of the gradient
+    if (kernel == SplineKernel::r) return -1 / std::sqrt(squared_distance);
+    return 2 * std::log(squared_distance) + 2;
+}
+
+std::string point_name(std::span<const std::string> names, std::size_t i) {
+    return names.empty() ? fmt::format("point {}", i) : fmt::format("'{}'", names[i]);
+}
+
+std::string listed_names(std::span<const std::string> names, std::size_t count) {
+    constexpr std::size_t shown = 12;
+    std::vector<std::string> list;
+    for (std::size_t i = 0; i < std::min(count, shown); ++i) list.push_back(point_name(names, i));
+    return fmt::format("{}{}", fmt::join(list, ", "),
+                       count > shown ? fmt::format(" and {} more", count - shown) : std::string());
+}
+
+void check_input(std::span<const Point> source_mm, std::span<const Point> target_mm,
+                 std::span<const std::string> names) {
+    if (source_mm.size() != target_mm.size())
+        throw InputError(fmt::format("thin-plate spline: {} source points but {} target points; pair them one to one",
+                                     source_mm.size(), target_mm.size()));
+    if (!names.empty() && names.size() != source_mm.size())
+        throw InputError(fmt::format("thin-plate spline: {} names for {} points; give one name per point, or none",
+                                     names.size(), source_mm.size()));
+    if (source_mm.size() < 4)
+        throw InputError(
+            fmt::format("thin-plate spline: {} point pairs, and it needs at least 4; add pairs", source_mm.size()));
+    for (std::size_t i = 0; i < source_mm.size(); ++i)
+        if (!source_mm[i].allFinite() || !target_mm[i].allFinite())
+            throw InputError(
+                fmt::format("thin-plate spline: the {} of {} has a coordinate that is not a finite number; "
+                            "mark the point again or leave the pair out",
+                            source_mm[i].allFinite() ? "target" : "source", point_name(names, i)));
+}
+
+struct ClosePair {
+    std::size_t first = 0, second = 0;
+    double distance_mm = 0;
+};
+
+/// The closest two points among those that are closer than `below_mm`. Sorted along x, so that few pairs are looked at.
+std::optional<ClosePair> closest_pair(std::span<const Point> points_mm, double below_mm) {
+    std::vector<std::size_t> order(points_mm.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return points_mm[a].x() < points_mm[b].x() || (points_mm[a].x() == points_mm[b].x() && a < b);
+    });
+    std::optional<ClosePair> closest;
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t j = i + 1; j < order.size(); ++j) {
+            const auto a = order[i], b = order[j];
+            if (points_mm[b].x() - points_mm[a].x() >= below_mm) break;
+            const double distance = (points_mm[a] - points_mm[b]).norm();
+            if (distance >= below_mm) continue;
+            below_mm = distance;
+            closest = ClosePair{std::min(a, b), std::max(a, b), distance};
+            if (distance == 0) return closest;
+        }
+    return closest;
+}
+
+void check_spread(std::span<const Point> source_mm, const Point& centre_mm, const ThinPlateSplineOptions& options,
+                  std::span<const std::string> names) {
+    if (const auto pair = closest_pair(source_mm, options.min_separation_mm))
+        throw NumericalError(
+            fmt::format("thin-plate spline: the source points {} and {} lie {:.3g} mm apart (least allowed: "
+                        "{:.3g} mm); leave one of the two out",
+                        point_name(names, pair->first), point_name(names, pair->second), pair->distance_mm,
+                        options.min_separation_mm));
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (const auto& s : source_mm) scatter += (s - centre_mm) * (s - centre_mm).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
+    const Vector normal = axes.eigenvectors().col(0);
+    const Vector along = axes.eigenvectors().col(2);
+    double off_plane_mm = 0, off_line_mm = 0;
+    for (const auto& s : source_mm) {
+        off_plane_mm = std::max(off_plane_mm, std::abs(normal.dot(s - centre_mm)));
+        off_line_mm = std::max(off_line_mm, along.cross(s - centre_mm).norm());
+    }
+    if (off_line_mm < options.min_thickness_mm)
+        throw NumericalError(fmt::format(
+            "thin-plate spline: all {} source points ({}) lie within {:.3g} mm of one line "
+            "(least allowed: {:.3g} mm); add points off it",
+            source_mm.size(), listed_names(names, source_mm.size()), off_line_mm, options.min_thickness_mm));
+    if (off_plane_mm < options.min_thickness_mm)
+        throw NumericalError(
+            fmt::format("thin-plate spline: all {} source points ({}) lie within {:.3g} mm of one plane "
+                        "(normal {:.3f}, {:.3f}, {:.3f}; least allowed: {:.3g} mm); add a point off it",
+                        source_mm.size(), listed_names(names, source_mm.size()), off_plane_mm, normal.x(), normal.y(),
+                        normal.z(), options.min_thickness_mm));
+}
+
+}  // namespace
+
+void ThinPlateSplineOptions::check() const {
+    const auto at_least_zero = [](const char* field, double value) {
+        if (!(value >= 0) || !std::isfinite(value))
+            throw InputError(fmt::format("{} is {}; give 0 or more", field, value));
+    };
+    at_least_zero("smoothing", smoothing);
+    at_least_zero("min_separation_mm", min_separation_mm);
+    at_least_zero("min_thickness_mm", min_thickness_mm);
+}
+
+ThinPlateSpline ThinPlateSpline::fit(std::span<const Point> source_mm, std::span<const Point> target_mm,
+                                     const ThinPlateSplineOptions& options, std::span<const std::string> names) {
+    options.check();
+    check_input(source_mm, target_mm, names);
+    const auto n = static_cast<Eigen::Index>(source_mm.size());
+    const Eigen::Map<const Eigen::Matrix3Xd> source(source_mm.data()->data(), 3, n);
+    const Eigen::Map<const Eigen::Matrix3Xd> target(target_mm.data()->data(), 3, n);
+    const Point centre = source.rowwise().mean();
+    check_spread(source_mm, centre, options, names);
+
+    // In y = (x - centre) / scale the system is well conditioned whatever the unit. K scales by scale (r) or scale^2
+    // (r^2 ln r^2; the term ln(scale^2) |x - s_i|^2 sums to a constant under the side conditions), and X with it.
+    const Eigen::Matrix3Xd centred = source.colwise() - centre;
+    const double scale = std::sqrt(centred.squaredNorm() / static_cast<double>(n));
+    const Eigen::Matrix3Xd y = centred / scale;
+    const double kernel_scale = options.kernel == SplineKernel::r ? scale : scale * scale;
+
+    Eigen::MatrixXd K(n, n);
+    for (Eigen::Index j = 0; j < n; ++j)
+        for (Eigen::Index i = j; i < n; ++i) {
+            K(i, j) = kernel_value(options.kernel, (y.col(i) - y.col(j)).squaredNorm());
+            K(j, i) = K(i, j);
+        }
+
+    // P = Q [R; 0]. With W = Q [0; Z] the side conditions hold, and what is left is positive definite:
+    // (Q2^T K Q2 + X I) Z = Q2^T V, then R A = Q1^T (V - K W).
+    Eigen::MatrixXd P(n, 4);
+    P.col(0).setOnes();
+    P.rightCols<3>() = y.transpose();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(P);
+    const auto Q = qr.householderQ();
+    const auto R = qr.matrixQR().topRows<4>().triangularView<Eigen::Upper>();
+
+    Eigen::MatrixXd reduced = K;
+    reduced.applyOnTheLeft(Q.adjoint());
+    reduced.applyOnTheRight(Q);
+    reduced.diagonal().array() += options.smoothing / kernel_scale;
+    // The mean is taken off first: displacements, not positions, decide the digits.
+    const Point target_centre = target.rowwise().mean();
+    Eigen::MatrixXd QtV = (target.colwise() - target_centre).transpose();
+    QtV.applyOnTheLeft(Q.adjoint());
+
+    Eigen::MatrixXd W = Eigen::MatrixXd::Zero(n, 3);
+    if (n > 4) {
+        const Eigen::LLT<Eigen::MatrixXd> cholesky(reduced.bottomRightCorner(n - 4, n - 4));
+        if (cholesky.info() == Eigen::Success) W.bottomRows(n - 4) = cholesky.solve(QtV.bottomRows(n - 4));
+        if (cholesky.info() != Eigen::Success || !W.allFinite()) {
+            const auto pair = closest_pair(source_mm, std::numeric_limits<double>::infinity());
+            throw NumericalError(
+                fmt::format("thin-plate spline: the system of {} points is singular in double precision; the "
+                            "closest two, {} and {}, lie {:.3g} mm apart; leave one out or add smoothing",
+                            n, point_name(names, pair->first), point_name(names, pair->second), pair->distance_mm));
+        }
+    }
+    const Eigen::MatrixXd top = QtV.topRows(4) - reduced.topRightCorner(4, n - 4) * W.bottomRows(n - 4);
+    Eigen::Matrix<double, 4, 3> A = R.solve(top);
+    W.applyOnTheLeft(Q);
+
+    // Back to the given coordinates.
+    if (options.kernel == SplineKernel::r2_log_r2)
+        A.row(0) -= std::log(scale * scale) * (y.colwise().squaredNorm() * W);
+    ThinPlateSpline spline;
+    spline.kernel_ = options.kernel;
+    spline.centres_mm_.assign(source_mm.begin(), source_mm.end());
+    spline.weights_.resize(source_mm.size());
+    for (Eigen::Index i = 0; i < n; ++i)
+        spline.weights_[static_cast<std::size_t>(i)] = W.row(i).transpose() / kernel_scale;
+    spline.affine_.linear() = A.bottomRows<3>().transpose() / scale;
+    spline.affine_.translation() = target_centre + A.row(0).transpose() - spline.affine_.linear() * centre;
+    return spline;
+}
+
+Point ThinPlateSpline::operator()(const Point& source_mm) const {
+    Point target = affine_ * source_mm;
+    for (std::size_t i = 0; i < centres_mm_.size(); ++i)
+        target += weights_[i] * kernel_value(kernel_, (source_mm - centres_mm_[i]).squaredNorm());
+    return target;
+}
+
+void ThinPlateSpline::apply(std::span<const Point> source_mm, std::span<Point> target_mm) const {
+    if (source_mm.size() != target_mm.size())
+        throw InputError(fmt::format("thin-plate spline: {} points in but room for {} out; give spans of one size",
+                                     source_mm.size(), target_mm.size()));
+    parallel_for(source_mm.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) target_mm[i] = (*this)(source_mm[i]);
+    });
+}
+
+std::vector<Point> ThinPlateSpline::apply(std::span<const Point> source_mm) const {
+    std::vector<Point> target_mm(source_mm.size());
+    apply(source_mm, target_mm);
+    return target_mm;
+}
+
+Eigen::Matrix3d ThinPlateSpline::derivative(const Point& source_mm) const {
+    Eigen::Matrix3d jacobian = affine_.linear();
+    for (std::size_t i = 0; i < centres_mm_.size(); ++i) {
+        const Vector offset = source_mm - centres_mm_[i];
+        jacobian += weights_[i] * (kernel_slope_over_distance(kernel_, offset.squaredNorm()) * offset).transpose();
+    }
+    return jacobian;
+}
+
+double ThinPlateSpline::bending_energy() const {
+    double energy = 0;
+    for (std::size_t i = 0; i < centres_mm_.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            energy += 2 * weights_[i].dot(weights_[j]) *
+                      kernel_value(kernel_, (centres_mm_[i] - centres_mm_[j]).squaredNorm());
+    return std::max(0.0, energy);  // rounding may leave -1e-20 where nothing bends
+}
+
+}  // namespace mimik::geometry
