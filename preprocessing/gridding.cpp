@@ -1,0 +1,421 @@
+#include "preprocessing/gridding.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "geometry/delaunay.h"
+#include "geometry/errors.h"
+
+namespace mimik::preprocessing {
+namespace {
+
+using geometry::Point;
+using geometry::QuadGrid;
+using geometry::RangeScan;
+using geometry::TextureCoordinate;
+using geometry::Triangle;
+using geometry::VertexOrigin;
+using Planar = Eigen::Vector2d;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// A grid vertex this close to an edge counts as on it: far above rounding (1e-14 mm), far below measuring.
+constexpr double on_edge_mm = 1e-10;
+
+/// What interpolation reads: valid points only, or all points of a lattice.
+struct Samples {
+    std::span<const Point> points_mm;
+    std::span<const TextureCoordinate> texture;  // empty, or one per point
+};
+
+double cross(const Point& a, const Point& b, const Point& c) {
+    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+double planar_squared(const Point& a, const Point& b) {
+    const double dx = b.x() - a.x(), dy = b.y() - a.y();
+    return dx * dx + dy * dy;
+}
+
+double longest_squared(const Samples& samples, const Triangle& t) {
+    const auto& p = samples.points_mm;
+    return std::max(
+        {planar_squared(p[t[0]], p[t[1]]), planar_squared(p[t[1]], p[t[2]]), planar_squared(p[t[2]], p[t[0]])});
+}
+
+/// MATLAB's linspace: both ends exact.
+std::vector<double> linspace(double low, double high, int count) {
+    std::vector<double> values(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = low + i * ((high - low) / (count - 1));
+    values.back() = high;
+    return values;
+}
+
+/// Draws triangles into a grid: each vertex that a triangle covers gets the triangle's height there.
+class Raster {
+public:
+    Raster(QuadGrid& grid, Samples samples, std::vector<double> x, std::vector<double> y)
+        : grid_(grid), samples_(samples), x_(std::move(x)), y_(std::move(y)), open_(y_.size(), x_.size()) {
+        per_x_ = (grid.cols - 1) / (x_.back() - x_.front());
+        per_y_ = (grid.rows - 1) / (y_.back() - y_.front());
+    }
+
+    /// A counter-clockwise triangle. Covered vertices that are still open take it; others only if `front` and it is
+    /// nearer to the camera.
+    void draw(const Triangle& t, VertexOrigin origin, bool front) {
+        const Point &a = samples_.points_mm[t[0]], &b = samples_.points_mm[t[1]], &c = samples_.points_mm[t[2]];
+        const auto [first_row, last_row] =
+            range(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}), y_, per_y_);
+        if (first_row > last_row) return;
+        const auto [first_col, last_col] =
+            range(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}), x_, per_x_);
+        if (first_col > last_col) return;
+        const double area2 = cross(a, b, c);
+        if (!(area2 > 0.0)) return;
+        // Squared slack: e is (distance to the edge) x (length of the edge).
+        const double slack_a = -on_edge_mm * std::sqrt(planar_squared(b, c));
+        const double slack_b = -on_edge_mm * std::sqrt(planar_squared(c, a));
+        const double slack_c = -on_edge_mm * std::sqrt(planar_squared(a, b));
+        for (int row = first_row; row <= last_row; ++row) {
+            if (!front && open_[static_cast<std::size_t>(row)] == 0) continue;
+            int from = first_col, to = last_col;
+            if (to - from > 8) narrow(row, {a, b, c}, from, to);
+            for (int col = from; col <= to; ++col) {
+                const auto vertex = grid_.index(row, col);
+                const bool open = grid_.origin[vertex] == VertexOrigin::outside;
+                if (!open && !front) continue;
+                const Point g(x_[static_cast<std::size_t>(col)], y_[static_cast<std::size_t>(row)], 0.0);
+                double u = cross(b, c, g), v = cross(c, a, g), w = cross(a, b, g);
+                if (u < slack_a || v < slack_b || w < slack_c) continue;
+                u = std::max(u, 0.0);
+                v = std::max(v, 0.0);
+                w = std::max(w, 0.0);
+                const double sum = u + v + w;
+                u /= sum;
+                v /= sum;
+                w /= sum;
+                const double z = u * a.z() + v * b.z() + w * c.z();
+                if (!open && z <= grid_.vertices_mm[vertex].z()) continue;
+                grid_.vertices_mm[vertex].z() = z;
+                grid_.origin[vertex] = origin;
+                if (!samples_.texture.empty())
+                    grid_.texture_coordinates[vertex] =
+                        u * samples_.texture[t[0]] + v * samples_.texture[t[1]] + w * samples_.texture[t[2]];
+                if (open) --open_[static_cast<std::size_t>(row)];
+            }
+        }
+    }
+
+private:
+    // Grid lines within [low, high], widened by the slack.
+    static std::array<int, 2> range(double low, double high, const std::vector<double>& lines, double per_mm) {
+        const double first = std::ceil((low - lines.front() - 2 * on_edge_mm) * per_mm - 1e-9);
+        const double last = std::floor((high - lines.front() + 2 * on_edge_mm) * per_mm + 1e-9);
+        return {static_cast<int>(std::max(first, 0.0)),
+                static_cast<int>(std::min(last, static_cast<double>(lines.size() - 1)))};
+    }
+
+    // The columns of a wide triangle on one row, a column to spare on both sides.
+    void narrow(int row, const std::array<Point, 3>& corners, int& from, int& to) const {
+        const double y = y_[static_cast<std::size_t>(row)];
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Point &p = corners[k], &q = corners[(k + 1) % 3];
+            if (std::min(p.y(), q.y()) > y + on_edge_mm || std::max(p.y(), q.y()) < y - on_edge_mm) continue;
+            const double dy = q.y() - p.y();
+            if (std::abs(dy) <= 2 * on_edge_mm) {
+                low = std::min({low, p.x(), q.x()});
+                high = std::max({high, p.x(), q.x()});
+                continue;
+            }
+            const double x = p.x() + std::clamp((y - p.y()) / dy, 0.0, 1.0) * (q.x() - p.x());
+            low = std::min(low, x);
+            high = std::max(high, x);
+        }
+        if (low > high) {
+            to = from - 1;
+            return;
+        }
+        from = std::max(from, static_cast<int>((low - x_.front()) * per_x_) - 1);
+        to = std::min(to, static_cast<int>((high - x_.front()) * per_x_) + 2);
+    }
+
+    QuadGrid& grid_;
+    Samples samples_;
+    std::vector<double> x_, y_;
+    std::vector<std::size_t> open_;  // vertices per row that nothing covers yet
+    double per_x_ = 0.0, per_y_ = 0.0;
+};
+
+/// Median of some thousands of values taken at even steps: the whole scan is as good and costs more than the rest.
+double median(std::vector<double>& values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+double lattice_spacing(const RangeScan& scan, const std::vector<std::uint8_t>& valid) {
+    const std::size_t step = std::max<std::size_t>(1, scan.points_mm.size() / 5003);
+    const auto cols = static_cast<std::size_t>(scan.cols);
+    std::vector<double> squared;
+    for (std::size_t i = 0; i < scan.points_mm.size(); i += step) {
+        if (!valid[i]) continue;
+        if ((i + 1) % cols != 0 && valid[i + 1])
+            squared.push_back(planar_squared(scan.points_mm[i], scan.points_mm[i + 1]));
+        if (i + cols < valid.size() && valid[i + cols])
+            squared.push_back(planar_squared(scan.points_mm[i], scan.points_mm[i + cols]));
+    }
+    return std::sqrt(median(squared));
+}
+
+double triangle_spacing(const Samples& samples, const std::vector<Triangle>& triangles) {
+    const std::size_t step = std::max<std::size_t>(1, triangles.size() / 5003);
+    std::vector<double> squared;
+    for (std::size_t t = 0; t < triangles.size(); t += step)
+        for (std::size_t k = 0; k < 3; ++k)
+            squared.push_back(
+                planar_squared(samples.points_mm[triangles[t][k]], samples.points_mm[triangles[t][(k + 1) % 3]]));
+    return std::sqrt(median(squared));
+}
+
+/// > 0 where d lies inside the circle through a, b, c (counter-clockwise), relative to the size of the terms.
+double in_circle(const Point& a, const Point& b, const Point& c, const Point& d) {
+    const double ax = a.x() - d.x(), ay = a.y() - d.y(), bx = b.x() - d.x(), by = b.y() - d.y(), cx = c.x() - d.x(),
+                 cy = c.y() - d.y();
+    const double aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy;
+    const double value = aa * (bx * cy - by * cx) - bb * (ax * cy - ay * cx) + cc * (ax * by - ay * bx);
+    const double scale = std::max({aa, bb, cc});
+    return value / (scale * scale);
+}
+
+/// The cells of the lattice, split and facing the camera, and the points on the rims of what they cover.
+struct Lattice {
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> rim;
+    std::size_t folded = 0;
+};
+
+Lattice split_cells(const RangeScan& scan, const std::vector<std::uint8_t>& valid, double max_edge_mm) {
+    const auto cols = static_cast<std::uint32_t>(scan.cols), rows = static_cast<std::uint32_t>(scan.rows);
+    const auto& p = scan.points_mm;
+    const double max_squared = max_edge_mm * max_edge_mm;
+
+    // Rows may run up or down and columns left or right: most cells say which way round the lattice is.
+    std::int64_t turning = 0;
+    for (std::uint32_t r = 0; r + 1 < rows; ++r)
+        for (std::uint32_t c = 0; c + 1 < cols; c += 3) {
+            const auto i = r * cols + c;
+            if (valid[i] && valid[i + 1] && valid[i + cols])
+                turning += cross(p[i], p[i + 1], p[i + cols]) > 0.0 ? 1 : -1;
+        }
+    const bool mirrored = turning < 0;
+
+    Lattice lattice;
+    lattice.triangles.reserve(2 * p.size());
+    std::vector<std::uint8_t> full_cells(p.size(), 0);  // around each point
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (!valid[a] || !valid[b] || !valid[c]) return false;
+        if (mirrored) std::swap(b, c);
+        // Seen from behind, or so edge-on that its height is not a function of x and y.
+        if (!(cross(p[a], p[b], p[c]) > 1e-12)) {
+            ++lattice.folded;
+            return false;
+        }
+        if (std::max({planar_squared(p[a], p[b]), planar_squared(p[b], p[c]), planar_squared(p[c], p[a])}) >
+            max_squared)
+            return false;
+        lattice.triangles.push_back({a, b, c});
+        return true;
+    };
+    for (std::uint32_t r = 0; r + 1 < rows; ++r)
+        for (std::uint32_t c = 0; c + 1 < cols; ++c) {
+            const std::uint32_t a = r * cols + c, b = a + 1, d = a + cols, e = d + 1;  // d e above a b
+            const int corners = valid[a] + valid[b] + valid[d] + valid[e];
+            if (corners < 3) continue;
+            if (corners == 3) {
+                if (!valid[a]) add(b, e, d);
+                if (!valid[b]) add(a, e, d);
+                if (!valid[d]) add(a, b, e);
+                if (!valid[e]) add(a, b, d);
+                continue;
+            }
+            // Ties, the rule on an exact lattice, leave the first diagonal; 1e-9 is above their rounding.
+            const double inside = mirrored ? in_circle(p[a], p[e], p[b], p[d]) : in_circle(p[a], p[b], p[e], p[d]);
+            const bool first = inside <= 1e-9;
+            const bool both = first ? (add(a, b, e) & add(a, e, d)) : (add(a, b, d) & add(b, e, d));
+            if (both)
+                for (const auto v : {a, b, d, e}) ++full_cells[v];
+        }
+    for (std::uint32_t v = 0; v < p.size(); ++v)
+        if (valid[v] && full_cells[v] < 4) lattice.rim.push_back(v);
+    return lattice;
+}
+
+/// One sample per (x, y): the mean of those that share it.
+struct Merged {
+    std::vector<Point> points_mm;
+    std::vector<TextureCoordinate> texture;
+    std::size_t duplicates = 0;
+};
+
+Merged merge(const RangeScan& scan, const std::vector<std::uint8_t>& valid) {
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t i = 0; i < valid.size(); ++i)
+        if (valid[i]) order.push_back(i);
+    const auto& p = scan.points_mm;
+    const auto same = [&](std::uint32_t a, std::uint32_t b) { return p[a].x() == p[b].x() && p[a].y() == p[b].y(); };
+    std::vector<std::uint32_t> sorted = order;
+    std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+        if (p[a].x() != p[b].x()) return p[a].x() < p[b].x();
+        return p[a].y() != p[b].y() ? p[a].y() < p[b].y() : a < b;
+    });
+    Merged merged;
+    merged.points_mm.reserve(order.size());
+    const bool textured = !scan.texture_coordinates.empty();
+    std::vector<std::uint32_t> run_length(valid.size(), 0);  // at the first of each run of duplicates, else 0
+    std::vector<Point> mean;
+    std::vector<TextureCoordinate> mean_texture;
+    std::vector<std::uint32_t> mean_of(valid.size(), 0);
+    for (std::size_t i = 0; i < sorted.size();) {
+        std::size_t end = i + 1;
+        while (end < sorted.size() && same(sorted[i], sorted[end])) ++end;
+        run_length[sorted[i]] = static_cast<std::uint32_t>(end - i);
+        if (end - i > 1) {
+            Point sum = Point::Zero();
+            TextureCoordinate texture_sum = TextureCoordinate::Zero();
+            for (std::size_t k = i; k < end; ++k) {
+                sum += p[sorted[k]];
+                if (textured) texture_sum += scan.texture_coordinates[sorted[k]];
+            }
+            mean_of[sorted[i]] = static_cast<std::uint32_t>(mean.size());
+            const auto count = static_cast<double>(end - i);
+            mean.emplace_back(p[sorted[i]].x(), p[sorted[i]].y(), sum.z() / count);
+            mean_texture.emplace_back(texture_sum / count);
+            merged.duplicates += end - i - 1;
+        }
+        i = end;
+    }
+    for (const auto i : order) {
+        if (run_length[i] == 0) continue;
+        merged.points_mm.push_back(run_length[i] == 1 ? p[i] : mean[mean_of[i]]);
+        if (textured)
+            merged.texture.push_back(run_length[i] == 1 ? scan.texture_coordinates[i] : mean_texture[mean_of[i]]);
+    }
+    return merged;
+}
+
+std::vector<Planar> planar(std::span<const Point> points_mm) {
+    std::vector<Planar> result;
+    result.reserve(points_mm.size());
+    for (const auto& p : points_mm) result.emplace_back(p.x(), p.y());
+    return result;
+}
+
+}  // namespace
+
+void GriddingOptions::check() const {
+    if (rows < 2 || cols < 2 || rows > 20000 || cols > 20000)
+        throw InputError(fmt::format("grid of {} x {}: rows and cols must lie between 2 and 20000", rows, cols));
+    if (max_edge_mm && !(*max_edge_mm > 0.0))
+        throw InputError(
+            fmt::format("max_edge_mm is {}; give a length above 0, or none to use the scan's spacing", *max_edge_mm));
+    if (!(max_edge_spacings > 0.0))
+        throw InputError(fmt::format("max_edge_spacings is {}; give a number above 0", max_edge_spacings));
+}
+
+QuadGrid grid_scan(const RangeScan& scan, const GriddingOptions& options, GriddingReport* report) {
+    options.check();
+    const auto& p = scan.points_mm;
+    if (!scan.texture_coordinates.empty() && scan.texture_coordinates.size() != p.size())
+        throw InputError(fmt::format("the scan has {} points but {} texture coordinates; give one per point or none",
+                                     p.size(), scan.texture_coordinates.size()));
+    if (scan.organised() && static_cast<std::size_t>(scan.rows) * static_cast<std::size_t>(scan.cols) != p.size())
+        throw InputError(
+            fmt::format("the scan has {} points but a lattice of {} x {}", p.size(), scan.rows, scan.cols));
+
+    GriddingReport made;
+    std::vector<std::uint8_t> valid(p.size());
+    Planar low = Planar::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        valid[i] = p[i].allFinite() ? 1 : 0;
+        if (!valid[i]) continue;
+        ++made.points;
+        low = low.cwiseMin(p[i].head<2>());
+        high = high.cwiseMax(p[i].head<2>());
+    }
+    if (made.points < 3)
+        throw InputError(fmt::format("the scan has {} valid points; a surface needs three or more", made.points));
+    if (!((high - low).minCoeff() > 0.0))
+        throw NumericalError(
+            fmt::format("all {} points of the scan lie on one line in x-y; turn the face to the camera", made.points));
+
+    QuadGrid grid;
+    grid.rows = options.rows;
+    grid.cols = options.cols;
+    const auto x = linspace(low.x(), high.x(), options.cols), y = linspace(low.y(), high.y(), options.rows);
+    grid.vertices_mm.reserve(x.size() * y.size());
+    for (const double row_y : y)
+        for (const double col_x : x) grid.vertices_mm.emplace_back(col_x, row_y, nan);
+    grid.origin.assign(grid.vertices_mm.size(), VertexOrigin::outside);
+    if (!scan.texture_coordinates.empty()) grid.texture_coordinates.assign(grid.vertices_mm.size(), {nan, nan});
+
+    const auto bound = [&](double spacing_mm) {
+        made.spacing_mm = spacing_mm;
+        made.max_edge_mm = options.max_edge_mm.value_or(options.max_edge_spacings * spacing_mm);
+        return made.max_edge_mm;
+    };
+    // Measured ones first: a vertex on an edge between the two kinds is measured.
+    const auto draw_all = [](Raster& raster, const Samples& samples, const std::vector<Triangle>& triangles,
+                             double max_edge_mm) {
+        std::vector<std::uint32_t> long_ones;
+        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+            if (longest_squared(samples, triangles[t]) > max_edge_mm * max_edge_mm)
+                long_ones.push_back(t);
+            else
+                raster.draw(triangles[t], VertexOrigin::measured, false);
+        }
+        for (const auto t : long_ones) raster.draw(triangles[t], VertexOrigin::bridged, false);
+    };
+    if (options.use_lattice && scan.organised()) {
+        made.method = GriddingMethod::lattice;
+        const double max_edge_mm = bound(lattice_spacing(scan, valid));
+        const auto lattice = split_cells(scan, valid, max_edge_mm);
+        made.folded_triangles = lattice.folded;
+        made.rim_points = lattice.rim.size();
+        const Samples samples{p, scan.texture_coordinates};
+        Raster raster(grid, samples, x, y);
+        for (const auto& t : lattice.triangles) raster.draw(t, VertexOrigin::measured, true);
+        std::vector<Planar> rim;
+        rim.reserve(lattice.rim.size());
+        for (const auto v : lattice.rim) rim.emplace_back(p[v].x(), p[v].y());
+        auto between = geometry::delaunay(rim);
+        for (auto& t : between)
+            for (auto& v : t) v = lattice.rim[v];
+        draw_all(raster, samples, between, max_edge_mm);
+    } else {
+        const auto merged = merge(scan, valid);
+        made.duplicates = merged.duplicates;
+        const Samples samples{merged.points_mm, merged.texture};
+        const auto all = geometry::delaunay(planar(samples.points_mm));
+        Raster raster(grid, samples, x, y);
+        draw_all(raster, samples, all, bound(triangle_spacing(samples, all)));
+    }
+    for (const auto origin : grid.origin) {
+        made.measured += origin == VertexOrigin::measured ? 1 : 0;
+        made.bridged += origin == VertexOrigin::bridged ? 1 : 0;
+        made.outside += origin == VertexOrigin::outside ? 1 : 0;
+    }
+    if (report) *report = made;
+    return grid;
+}
+
+}  // namespace mimik::preprocessing

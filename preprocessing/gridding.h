@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "geometry/quad_grid.h"
+#include "geometry/range_scan.h"
+
+namespace mimik::preprocessing {
+
+struct GriddingOptions {
+    int rows = 150;  ///< the thesis's grid (Sec. 5.4)
+    int cols = 150;
+    /// A triangle with an edge longer than this in x-y, mm, spans a hole or a concavity: vertices in it are `bridged`.
+    /// Unset: `max_edge_spacings` times the scan's median point spacing, so that it suits every scanner.
+    std::optional<double> max_edge_mm;
+    /// 3 spacings bridge one lost point of a lattice (edges up to 2 spacings) and a steep or noisy stretch, but not a
+    /// hole of three points across.
+    double max_edge_spacings = 3.0;
+    /// Organised scans: split the scanner's own cells instead of triangulating every point (see grid_scan).
+    bool use_lattice = true;
+    /// @throws InputError naming the field and its value.
+    void check() const;
+};
+
+enum class GriddingMethod {
+    lattice,  ///< the scanner's cells, and a Delaunay triangulation of the rims alone
+    delaunay  ///< a Delaunay triangulation of every point
+};
+
+/// How a grid came about.
+struct GriddingReport {
+    GriddingMethod method = GriddingMethod::delaunay;
+    std::size_t points = 0;            ///< valid points of the scan
+    std::size_t measured = 0;          ///< vertices between measured points that are close together
+    std::size_t bridged = 0;           ///< vertices inside the hull, but across a hole or a concavity
+    std::size_t outside = 0;           ///< vertices outside the hull: z is NaN
+    std::size_t duplicates = 0;        ///< points that share x and y with another; z was averaged (delaunay only)
+    std::size_t folded_triangles = 0;  ///< lattice triangles seen from behind; left out (lattice only)
+    std::size_t rim_points = 0;        ///< points on outer borders and rims of holes (lattice only)
+    double spacing_mm = 0.0;           ///< median distance of neighbours in x-y
+    double max_edge_mm = 0.0;          ///< the bound that was used
+};
+
+/// The thesis's resampling (Sec. 5.4): `linspace` over the bounding box of the valid points, `meshgrid`, and z linearly
+/// interpolated on a Delaunay triangulation of (x, y) as MATLAB's griddata does it. Outside the convex hull z (and the
+/// texture coordinate) is NaN; a vertex on the hull is inside. Texture coordinates are interpolated with the same
+/// weights. Row 0 has the lowest y, column 0 the lowest x.
+///
+/// `delaunay` triangulates every point; z of points with the same x and y is averaged, as griddata does.
+/// `lattice` splits each scanner cell along its Delaunay diagonal (a tie: from (row, col) to (row + 1, col + 1)), and
+/// fills what the cells leave open - holes, concavities, lost points - from the Delaunay triangulation of the points on
+/// their rims. Cells that a tilted pose folds over (seen from behind) are left out, and where sheets still overlap the
+/// one nearest to the camera (highest z) counts.
+/// @throws InputError for bad options or a scan with fewer than three valid points; NumericalError if all lie on a
+/// line.
+[[nodiscard]] geometry::QuadGrid grid_scan(const geometry::RangeScan& scan, const GriddingOptions& options = {},
+                                           GriddingReport* report = nullptr);
+
+}  // namespace mimik::preprocessing
