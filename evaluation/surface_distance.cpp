@@ -1,0 +1,116 @@
+#include "evaluation/surface_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+
+namespace mimik::evaluation {
+namespace {
+
+using geometry::Mesh;
+using geometry::Point;
+using geometry::SurfaceIndex;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+void check_mask(std::size_t mask, std::size_t vertices) {
+    if (mask != 0 && mask != vertices)
+        throw InputError(
+            fmt::format("the mask has {} entries for {} vertices; give one per vertex or none", mask, vertices));
+}
+
+// Needs finite values; rearranges them.
+double quantile_in_place(std::vector<double>& values, double q) {
+    const double position = q * static_cast<double>(values.size() - 1);
+    const auto lower = static_cast<std::size_t>(position);
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(lower);
+    std::nth_element(values.begin(), at, values.end());
+    const double share = position - static_cast<double>(lower);
+    if (share == 0.0) return *at;
+    return *at + share * (*std::min_element(at + 1, values.end()) - *at);
+}
+
+}  // namespace
+
+double quantile(std::vector<double> values, double q) {
+    if (values.empty()) throw InputError("a quantile of no value; give one or more");
+    if (!(q >= 0.0 && q <= 1.0)) throw InputError(fmt::format("quantile {}; give a number from 0 to 1", q));
+    if (std::any_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
+        throw InputError("a quantile of values that are not all numbers; leave out NaN");
+    return quantile_in_place(values, q);
+}
+
+DistanceSummary summarize(std::span<const double> distance_mm, std::span<const std::uint8_t> on_border,
+                          std::span<const std::uint8_t> counts) {
+    check_mask(counts.size(), distance_mm.size());
+    check_mask(on_border.size(), distance_mm.size());
+    DistanceSummary summary;
+    std::vector<double> kept;
+    kept.reserve(distance_mm.size());
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t v = 0; v < distance_mm.size(); ++v) {
+        if (!counts.empty() && counts[v] == 0) continue;
+        const double d = distance_mm[v];
+        if (!std::isfinite(d)) throw InputError(fmt::format("the distance of vertex {} is {}; mask it out", v, d));
+        kept.push_back(d);
+        sum += d;
+        squares += d * d;
+        if (!on_border.empty() && on_border[v] != 0) ++summary.border_hits;
+    }
+    if (kept.empty())
+        throw InputError(fmt::format("none of {} vertices counts; there is nothing to measure", distance_mm.size()));
+    summary.n = kept.size();
+    const auto n = static_cast<double>(kept.size());
+    summary.mean_mm = sum / n;
+    summary.rms_mm = std::sqrt(squares / n);
+    summary.median_mm = quantile_in_place(kept, 0.5);
+    summary.p95_mm = quantile_in_place(kept, 0.95);
+    summary.max_mm = *std::max_element(kept.begin(), kept.end());
+    return summary;
+}
+
+VertexDistances distances_to_surface(std::span<const Point> vertices_mm, const SurfaceIndex& reference,
+                                     std::span<const std::uint8_t> counts) {
+    check_mask(counts.size(), vertices_mm.size());
+    VertexDistances result;
+    result.distance_mm.assign(vertices_mm.size(), nan);
+    result.on_border.assign(vertices_mm.size(), 0);
+    std::vector<std::uint32_t> asked;
+    std::vector<Point> queries;
+    asked.reserve(vertices_mm.size());
+    queries.reserve(vertices_mm.size());
+    for (std::uint32_t v = 0; v < vertices_mm.size(); ++v) {
+        if (!counts.empty() && counts[v] == 0) continue;
+        if (!vertices_mm[v].allFinite())
+            throw InputError(fmt::format("vertex {} is ({}, {}, {}); mask out vertices without a measurement", v,
+                                         vertices_mm[v].x(), vertices_mm[v].y(), vertices_mm[v].z()));
+        asked.push_back(v);
+        queries.push_back(vertices_mm[v]);
+    }
+    const auto answers = reference.closest(queries);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        result.distance_mm[asked[i]] = answers[i].distance_mm;
+        result.on_border[asked[i]] = reference.on_border(answers[i]) ? 1 : 0;
+    }
+    result.summary = summarize(result.distance_mm, result.on_border, counts);
+    return result;
+}
+
+SurfaceDistance surface_distance(const Mesh& test, const Mesh& reference) {
+    if (reference.faces.size() == 0)
+        throw InputError(fmt::format("the reference has {} vertices but no face; distances need a surface: give a mesh",
+                                     reference.vertices_mm.size()));
+    SurfaceDistance result;
+    result.test_to_reference = distances_to_surface(
+        test.vertices_mm, SurfaceIndex(reference.vertices_mm, geometry::triangulate(reference.faces)));
+    if (test.faces.size() > 0)
+        result.reference_to_test = distances_to_surface(
+            reference.vertices_mm, SurfaceIndex(test.vertices_mm, geometry::triangulate(test.faces)));
+    return result;
+}
+
+}  // namespace mimik::evaluation
