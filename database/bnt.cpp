@@ -211,8 +211,8 @@ void write_bnt(const std::filesystem::path& file, const Bnt& bnt) {
     });
 }
 
-geometry::RangeScan to_range_scan(const Bnt& bnt) {
-    check_texture_name(bnt.texture_file, "scan");
+geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name) {
+    check_texture_name(bnt.texture_file, name);
     geometry::RangeScan scan;
     scan.rows = bnt.rows;
     scan.cols = bnt.cols;

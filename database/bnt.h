@@ -26,8 +26,8 @@ struct Bnt {
 void write_bnt(const std::filesystem::path& file, const Bnt& bnt);
 
 /// Invalid cells (any of x, y, z is the background or not finite) become NaN; texture v is turned to count from the
-/// bottom; a texture name with a folder in it is an InputError.
-[[nodiscard]] geometry::RangeScan to_range_scan(const Bnt& bnt);
+/// bottom; a texture name with a folder in it is an InputError, which begins with `name`.
+[[nodiscard]] geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name = "scan");
 /// The scan must be organised. NaN points become background cells.
 [[nodiscard]] Bnt to_bnt(const geometry::RangeScan& scan, double background = -1e9);
 

@@ -6,7 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "database/bosphorus_landmarks.h"
+#include "database/facs_codes.h"
+#include "database/one_sided_codes.h"
 #include "database/scan_id.h"
+#include "database/self_checks.h"
 #include "geometry/image.h"
 #include "geometry/landmarks.h"
 #include "geometry/mesh_io.h"
@@ -16,23 +20,39 @@ namespace mimik::database {
 
 /// Where one scan's files are. Paths are absolute; empty where there is none.
 struct ScanEntry {
-    ScanId id;
+    ScanId id;                               ///< sides are the subject's own, also where the file's name says otherwise
+    std::string file_name_stem;              ///< the scan's name as its file has it, such as "bs000_LFAU_12L_0"
     std::filesystem::path scan_file;         ///< .bnt, .ply, .obj, .stl, .pcd
     std::filesystem::path landmarks_file;    ///< .lm3, .pp, .fcsv, .mrk.json, .csv
     std::filesystem::path landmarks2d_file;  ///< .lm2
     std::filesystem::path texture_file;
     geometry::LengthUnit unit = geometry::LengthUnit::millimetre;
-    std::string sex;                  ///< "m", "f" or empty
-    std::map<int, char> intensities;  ///< AU -> 'A'..'E' (0 where not scored) from facscodes.lst
+    std::string sex;                     ///< "m", "f" or empty
+    std::map<int, char> intensities;     ///< AU -> 'A'..'E' (0 where not scored), the stronger side, from facscodes.lst
+    std::vector<FacsScore> facs_scores;  ///< the same with sides
 };
 
-/// A folder of bsNNN/ folders in Bosphorus layout, or a folder with manifest.csv
-/// (subject,expression,scan,landmarks,sex,unit). Only names are read; scans are opened one at a time with load().
+/// Whether 12L in the file names is the subject's own left, by the mouth corner that moves. One vote per one-sided
+/// scan.
+struct CodeSides {
+    int own_side = 0;    ///< scans that move the corner their name says
+    int other_side = 0;  ///< scans that move the other one
+    int undecided = 0;
+    bool swapped = false;  ///< the names are the viewer's: at least two thirds of the votes; ids were mirrored
+};
+
+enum class DatabaseLayout { bosphorus, manifest };
+
+/// A folder of bsNNN/ folders in Bosphorus layout, or a folder with manifest.csv (database/manifest.h). Scans are
+/// opened one at a time with load(); opening the database reads names, the lists beside the scans and the landmarks of
+/// one-sided scans.
 struct ScanDatabase {
     std::filesystem::path root;
+    DatabaseLayout layout = DatabaseLayout::bosphorus;
     std::vector<ScanEntry> scans;              ///< sorted by subject, neutral first, then group, code, repetition
     std::vector<std::string> hidden_subjects;  ///< unallowed_subjects.txt: never in a figure, report or export
     std::vector<std::string> remarks;          ///< files that fit no pattern, and so on
+    CodeSides code_sides;
 
     [[nodiscard]] std::vector<std::string> subjects() const;
     [[nodiscard]] const ScanEntry* find(const ScanId& id) const;
@@ -40,17 +60,38 @@ struct ScanDatabase {
     [[nodiscard]] bool hidden(const std::string& subject) const;
 };
 
-/// @throws InputError if the folder is missing or holds no scan at all.
+/// @throws InputError if the folder is missing or holds no scan at all, or a list beside the scans is unreadable.
 [[nodiscard]] ScanDatabase open_database(const std::filesystem::path& root);
+
+/// Part of a database. Empty lists mean "all"; within a list any entry will do, across lists all must hold.
+struct Selection {
+    std::vector<std::string> subjects = {};  ///< case ignored
+    std::vector<std::string> groups = {};    ///< "LFAU"; case ignored
+    std::vector<int> action_units = {};
+    std::optional<Side> side = {};                   ///< the subject's own; both = two-sided scans only
+    void check(const ScanDatabase& database) const;  ///< throws InputError naming a subject or group that is not there
+};
+[[nodiscard]] std::vector<const ScanEntry*> select(const ScanDatabase& database, const Selection& selection);
+
+/// What load() checked on the way, with the figures.
+struct SelfChecks {
+    SideReport sides;
+    FrameCorrelations correlations;
+    std::optional<TextureOrientation> texture;
+    double landmark_off_scan_mm = 0;  ///< largest distance of a landmark to the nearest valid point
+    std::string landmark_off_scan;    ///< its name; empty if there are no landmarks
+};
 
 /// One scan with its landmarks under our names (subject's own side), mm, scanner frame.
 struct LoadedScan {
     ScanEntry entry;
     geometry::RangeScan scan;
     geometry::Landmarks landmarks;
+    SelfChecks checks;
     std::vector<std::string> remarks;  ///< what the self-checks found; a defect that forbids use is thrown instead
 };
-/// @throws InputError.
+/// May be called from many threads. A texture that lies otherwise than expected is turned, with a remark. @throws
+/// InputError.
 [[nodiscard]] LoadedScan load(const ScanEntry& entry);
 [[nodiscard]] std::optional<geometry::Image> load_texture(const ScanEntry& entry);
 

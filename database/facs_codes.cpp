@@ -1,0 +1,91 @@
+#include "database/facs_codes.h"
+
+#include <charconv>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+
+namespace mimik::database {
+namespace {
+
+constexpr int max_lines = 100'000;
+constexpr std::size_t max_remarks = 20;
+
+bool blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+std::optional<FacsScore> parse_code(std::string_view code) {
+    FacsScore score;
+    if (code.starts_with('L') || code.starts_with('R')) {
+        score.side = code.front() == 'L' ? Side::left : Side::right;
+        code.remove_prefix(1);
+    }
+    const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), score.action_unit);
+    if (error != std::errc{} || score.action_unit < 0 || score.action_unit > 999) return std::nullopt;
+    code.remove_prefix(static_cast<std::size_t>(end - code.data()));
+    if (code.size() == 1 && code[0] >= 'A' && code[0] <= 'E') {
+        score.intensity = code[0];
+        code = {};
+    }
+    return code.empty() ? std::optional(score) : std::nullopt;
+}
+
+std::optional<std::vector<FacsScore>> parse_codes(std::string_view codes) {
+    std::vector<FacsScore> scores;
+    while (!codes.empty()) {
+        const auto end = codes.find('+');
+        const auto score = parse_code(trimmed(codes.substr(0, end)));
+        if (!score) return std::nullopt;
+        if (score->action_unit > 0) scores.push_back(*score);
+        if (end == std::string_view::npos) return scores;
+        codes.remove_prefix(end + 1);
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
+    FacsCodes result;
+    std::size_t not_understood = 0;
+    int number = 0;
+    while (!text.empty()) {
+        const auto end = text.find('\n');
+        const auto line = trimmed(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        if (++number > max_lines)
+            throw InputError(fmt::format("{}: more than {} lines; is it the right file?", name, max_lines));
+        const auto arrow = line.find("->");
+        if (line.empty() || (arrow == std::string_view::npos && number <= 2)) continue;  // the two header lines
+        if (arrow != std::string_view::npos) {
+            auto scan = trimmed(line.substr(0, arrow));
+            scan = scan.substr(0, scan.find('.'));  // some lists name the file
+            const auto id = parse_scan_name(scan);
+            const auto scores = parse_codes(trimmed(line.substr(arrow + 2)));
+            if (id && scores) {
+                result.scores[*id] = *scores;
+                continue;
+            }
+        }
+        if (not_understood++ < max_remarks)
+            result.remarks.push_back(
+                fmt::format("{}:{}: '{}' is not of the form 'bs000_LFAU_12_0 -> 6B+12C'; the line is left out", name,
+                            number, line.substr(0, 60)));
+    }
+    if (not_understood > 0 && result.scores.empty())
+        throw InputError(
+            fmt::format("{}: no line is of the form 'bs000_LFAU_12_0 -> 6B+12C'; is it the right file?", name));
+    if (not_understood > max_remarks)
+        result.remarks.push_back(
+            fmt::format("{}: {} more lines are not understood", name, not_understood - max_remarks));
+    return result;
+}
+
+}  // namespace mimik::database

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "database/scan_id.h"
+#include "geometry/landmarks.h"
+
+namespace mimik::database {
+
+struct SideDecisionOptions {
+    double min_difference_mm =
+        1.5;                 ///< a posed expression repeats to about 1 mm (Johnston 2003): less than that says nothing
+    double min_ratio = 1.3;  ///< of the larger to the smaller motion
+    void check() const;      ///< throws InputError naming field and value
+};
+
+/// Which mouth corner moved, with the evidence.
+struct SideDecision {
+    Side side = Side::both;  ///< both: undecided
+    double left_mm = 0;      ///< how far the subject's own left mouth corner moved
+    double right_mm = 0;
+    int stable_landmarks = 0;  ///< eye corners and nose that carried one scan on to the other; fewer than 4: undecided
+};
+
+/// The side on which an expression happens, by the mouth corner that moves more against the neutral scan of the same
+/// subject, after both are brought together rigidly on eye corners, nose saddles and nose tip. Landmarks under our
+/// names, mm.
+[[nodiscard]] SideDecision decide_side(const geometry::Landmarks& neutral, const geometry::Landmarks& expression,
+                                       const SideDecisionOptions& options = {});
+
+}  // namespace mimik::database

@@ -1,0 +1,328 @@
+#include "database/scan_database.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "database/bnt.h"
+#include "geometry/errors.h"
+#include "geometry/file.h"
+
+namespace mimik::database {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t max_list_bytes = 16 << 20;  // facscodes.lst of the whole database has 0.2 MB
+
+std::string lower_case(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return result;
+}
+
+bool same(std::string_view a, std::string_view b) { return lower_case(a) == lower_case(b); }
+
+/// Names and kinds of what is in a folder, in the order of their names: the order of a folder is nobody's promise.
+std::vector<fs::path> listing(const fs::path& folder, std::vector<std::string>& remarks) {
+    std::vector<fs::path> entries;
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+        entries.push_back(it->path());
+    if (error)
+        remarks.push_back(
+            fmt::format("{}: cannot be listed ({}); its scans are left out", folder.string(), error.message()));
+    std::sort(entries.begin(), entries.end());
+    return entries;
+}
+
+/// Adds the scans of one folder.
+void add_scans(const fs::path& folder, const std::vector<fs::path>& entries, ScanDatabase& database) {
+    std::map<std::string, ScanEntry> found;
+    for (const auto& path : entries) {
+        const std::string extension = lower_case(path.extension().string());
+        const std::string stem = path.stem().string();
+        ScanEntry& entry = found[stem];
+        if (extension == ".bnt") entry.scan_file = path;
+        if (extension == ".lm3") entry.landmarks_file = path;
+        if (extension == ".lm2") entry.landmarks2d_file = path;
+        if (extension == ".png") entry.texture_file = path;
+    }
+    for (auto& [stem, entry] : found) {
+        const auto id = parse_scan_name(stem);
+        if (entry.scan_file.empty()) {
+            if (id && !(entry.landmarks_file.empty() && entry.landmarks2d_file.empty() && entry.texture_file.empty()))
+                database.remarks.push_back(
+                    fmt::format("{}: there is no {}.bnt beside it; copy the scan too", (folder / stem).string(), stem));
+            continue;
+        }
+        if (!id) {
+            database.remarks.push_back(
+                fmt::format("{}: the name is not of the form bs000_LFAU_12_0.bnt; rename it to have it read",
+                            entry.scan_file.string()));
+            continue;
+        }
+        entry.id = *id;
+        entry.file_name_stem = stem;
+        const std::string folder_name = folder.filename().string();
+        if (folder != database.root && !same(folder_name, id->subject))
+            database.remarks.push_back(fmt::format("{}: lies in the folder '{}' though its subject is '{}'",
+                                                   entry.scan_file.string(), folder_name, id->subject));
+        database.scans.push_back(std::move(entry));
+    }
+}
+
+/// The first of these files that is there.
+fs::path first_file(const fs::path& root, std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+        std::error_code ignored;
+        if (fs::is_regular_file(root / name, ignored)) return root / name;
+    }
+    return {};
+}
+
+/// unallowed_subjects.txt: numbers or names, separated by anything that is neither letter nor digit; '#' begins a
+/// comment.
+std::vector<std::string> parse_hidden_subjects(const std::string& text, const std::string& name,
+                                               const ScanDatabase& database, std::vector<std::string>& remarks) {
+    std::vector<std::string> hidden;
+    std::string word;
+    bool comment = false;
+    const auto finish_word = [&] {
+        if (word.empty()) return;
+        std::string subject = std::exchange(word, {});
+        const bool number = subject.size() <= 6 &&
+                            std::all_of(subject.begin(), subject.end(), [](char c) { return c >= '0' && c <= '9'; });
+        if (number) subject = fmt::format("bs{:03}", std::stoi(subject));
+        if (std::any_of(hidden.begin(), hidden.end(), [&](const auto& h) { return same(h, subject); })) return;
+        // Words of a sentence are no subjects; a subject whose scans are not here yet is hidden all the same.
+        const bool known = std::any_of(database.scans.begin(), database.scans.end(),
+                                       [&](const ScanEntry& e) { return same(e.id.subject, subject); });
+        const bool looks_like_one =
+            lower_case(subject).starts_with("bs") && subject.size() > 2 &&
+            std::all_of(subject.begin() + 2, subject.end(), [](char c) { return c >= '0' && c <= '9'; });
+        if (known || looks_like_one)
+            hidden.push_back(std::move(subject));
+        else if (remarks.size() < 50)
+            remarks.push_back(
+                fmt::format("{}: '{}' is no subject of this database and is not hidden", name, subject.substr(0, 40)));
+    };
+    for (const char c : text) {
+        if (c == '\n') comment = false;
+        const bool part =
+            !comment && ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-');
+        if (part) {
+            word += c;
+        } else {
+            finish_word();
+            comment = comment || c == '#';
+        }
+    }
+    finish_word();
+    std::sort(hidden.begin(), hidden.end());
+    return hidden;
+}
+
+void read_lists(ScanDatabase& database) {
+    if (const auto file = first_file(database.root, {"facscodes.lst", "facscodes/facscodes.lst"}); !file.empty()) {
+        auto codes = parse_facs_codes(geometry::read_text(file, max_list_bytes), file.string());
+        std::move(codes.remarks.begin(), codes.remarks.end(), std::back_inserter(database.remarks));
+        for (auto& entry : database.scans) {
+            const auto id = parse_scan_name(entry.file_name_stem);
+            const auto it = id ? codes.scores.find(*id) : codes.scores.end();
+            if (it == codes.scores.end()) continue;
+            entry.facs_scores = it->second;
+            for (const auto& score : it->second) {
+                char& strongest = entry.intensities[score.action_unit];
+                strongest = std::max(strongest, score.intensity);
+            }
+        }
+    }
+    if (const auto file = first_file(database.root, {"unallowed_subjects.txt"}); !file.empty())
+        database.hidden_subjects =
+            parse_hidden_subjects(geometry::read_text(file, max_list_bytes), file.string(), database, database.remarks);
+}
+
+/// Landmarks under our names; nothing if there are none or they cannot be read (load() says why).
+std::optional<geometry::Landmarks> landmarks_if_readable(const ScanEntry& entry) {
+    if (lower_case(entry.landmarks_file.extension().string()) != ".lm3") return std::nullopt;
+    try {
+        return from_bosphorus_labels(read_lm3(entry.landmarks_file));
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+/// Neither Bosphorus nor anyone else says whose left 12L is (docs/formats.md): the mouth corners do.
+void decide_code_sides(ScanDatabase& database) {
+    auto& sides = database.code_sides;
+    std::map<std::string, std::optional<geometry::Landmarks>> neutrals;  // by subject, in lower case
+    for (const auto& entry : database.scans) {
+        if (entry.id.side() == Side::both || entry.id.group == "UFAU") continue;
+        const auto [it, is_new] = neutrals.try_emplace(lower_case(entry.id.subject));
+        if (is_new)
+            for (const auto* neutral : database.neutrals(entry.id.subject))
+                if (!it->second) it->second = landmarks_if_readable(*neutral);
+        const auto expression = landmarks_if_readable(entry);
+        const Side moved = it->second && expression ? decide_side(*it->second, *expression).side : Side::both;
+        ++(moved == Side::both ? sides.undecided : moved == entry.id.side() ? sides.own_side : sides.other_side);
+    }
+    if (sides.other_side == 0) return;
+    sides.swapped = sides.other_side >= 2 * sides.own_side;
+    if (sides.swapped) {
+        for (auto& entry : database.scans) entry.id = entry.id.mirrored();
+        std::sort(database.scans.begin(), database.scans.end(),
+                  [](const auto& a, const auto& b) { return a.id < b.id; });
+    }
+    database.remarks.push_back(
+        fmt::format("one-sided codes: {} scans move the subject's own side, {} the other, {} are undecided; {}",
+                    sides.own_side, sides.other_side, sides.undecided,
+                    sides.swapped ? "12L in file names is taken as the subject's right"
+                                  : "12L in file names is taken as the subject's left"));
+}
+
+geometry::RangeScan read_scan(const ScanEntry& entry) {
+    return to_range_scan(read_bnt(entry.scan_file), entry.scan_file.string());
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    return std::accumulate(words.begin(), words.end(), std::string(), [](std::string all, const std::string& word) {
+        return all.empty() ? word : std::move(all) + ", " + word;
+    });
+}
+
+void check_frame(const FrameCorrelations& correlations, std::vector<std::string>& remarks) {
+    const auto expect_positive = [&](const std::optional<double>& value, const char* what) {
+        if (value && *value <= 0)
+            remarks.push_back(
+                fmt::format("{} (correlation {:.2f}); the scan or its texture is mirrored", what, *value));
+    };
+    expect_positive(correlations.x_u, "x falls as the texture's u grows");
+    expect_positive(correlations.y_v, "y falls as the texture's rows go up");
+    expect_positive(correlations.y_row, "y falls as the row grows");
+    expect_positive(correlations.x_column, "x falls as the column grows");
+}
+
+}  // namespace
+
+std::vector<std::string> ScanDatabase::subjects() const {
+    std::vector<std::string> names;
+    for (const auto& entry : scans)
+        if (names.empty() || !same(names.back(), entry.id.subject)) names.push_back(entry.id.subject);
+    return names;
+}
+
+const ScanEntry* ScanDatabase::find(const ScanId& id) const {
+    const auto it =
+        std::lower_bound(scans.begin(), scans.end(), id, [](const ScanEntry& e, const ScanId& i) { return e.id < i; });
+    return it != scans.end() && it->id == id ? &*it : nullptr;
+}
+
+std::vector<const ScanEntry*> ScanDatabase::neutrals(const std::string& subject) const {
+    std::vector<const ScanEntry*> result;
+    for (const auto& entry : scans)
+        if (entry.id.neutral() && same(entry.id.subject, subject)) result.push_back(&entry);
+    return result;
+}
+
+bool ScanDatabase::hidden(const std::string& subject) const {
+    return std::any_of(hidden_subjects.begin(), hidden_subjects.end(), [&](const auto& h) { return same(h, subject); });
+}
+
+ScanDatabase open_database(const std::filesystem::path& root) {
+    std::error_code error;
+    if (!fs::is_directory(root, error))
+        throw InputError(
+            fmt::format("{}: is not a folder; give the folder that holds bs000, bs001, ...", root.string()));
+    ScanDatabase database;
+    database.root = fs::canonical(root, error);
+    if (error) throw InputError(fmt::format("{}: cannot be opened ({})", root.string(), error.message()));
+
+    const auto entries = listing(database.root, database.remarks);
+    add_scans(database.root, entries, database);
+    for (const auto& entry : entries)
+        if (fs::is_directory(entry, error)) add_scans(entry, listing(entry, database.remarks), database);
+    if (database.scans.empty())
+        throw InputError(fmt::format("{}: no scan found; expected bs000/bs000_N_N_0.bnt and so on{}", root.string(),
+                                     database.remarks.empty() ? "" : " (" + database.remarks.front() + ")"));
+    std::stable_sort(database.scans.begin(), database.scans.end(),
+                     [](const auto& a, const auto& b) { return a.id < b.id; });
+    const auto twin = std::adjacent_find(database.scans.begin(), database.scans.end(),
+                                         [](const auto& a, const auto& b) { return a.id == b.id; });
+    if (twin != database.scans.end())
+        throw InputError(fmt::format("{} and {}: two scans of one name; rename one or move it out of the database",
+                                     twin->scan_file.string(), std::next(twin)->scan_file.string()));
+    read_lists(database);
+    decide_code_sides(database);
+    return database;
+}
+
+void Selection::check(const ScanDatabase& database) const {
+    for (const auto& subject : subjects)
+        if (database.find({subject, "N", "N", 0}) == nullptr &&
+            std::none_of(database.scans.begin(), database.scans.end(),
+                         [&](const auto& e) { return same(e.id.subject, subject); }))
+            throw InputError(fmt::format("subject '{}' is not in {}; there are {}", subject, database.root.string(),
+                                         joined(database.subjects())));
+    for (const auto& group : groups) {
+        std::vector<std::string> there;
+        for (const auto& entry : database.scans)
+            if (std::none_of(there.begin(), there.end(), [&](const auto& g) { return same(g, entry.id.group); }))
+                there.push_back(entry.id.group);
+        if (std::none_of(there.begin(), there.end(), [&](const auto& g) { return same(g, group); }))
+            throw InputError(
+                fmt::format("group '{}' is not in {}; there are {}", group, database.root.string(), joined(there)));
+    }
+}
+
+std::vector<const ScanEntry*> select(const ScanDatabase& database, const Selection& selection) {
+    selection.check(database);
+    const auto in = [](const std::vector<std::string>& list, const std::string& value) {
+        return list.empty() ||
+               std::any_of(list.begin(), list.end(), [&](const auto& item) { return same(item, value); });
+    };
+    std::vector<const ScanEntry*> result;
+    for (const auto& entry : database.scans) {
+        const auto unit = entry.id.action_unit();
+        const bool unit_fits = selection.action_units.empty() ||
+                               (unit && std::find(selection.action_units.begin(), selection.action_units.end(),
+                                                  *unit) != selection.action_units.end());
+        const bool side_fits = !selection.side || entry.id.side() == *selection.side;
+        if (in(selection.subjects, entry.id.subject) && in(selection.groups, entry.id.group) && unit_fits && side_fits)
+            result.push_back(&entry);
+    }
+    return result;
+}
+
+LoadedScan load(const ScanEntry& entry) {
+    LoadedScan loaded{entry, read_scan(entry), {}, {}, {}};
+    if (std::none_of(loaded.scan.points_mm.begin(), loaded.scan.points_mm.end(),
+                     [](const auto& p) { return p.allFinite(); }))
+        throw InputError(fmt::format("{}: holds no measured point; scan again or remove it", entry.scan_file.string()));
+
+    if (entry.landmarks_file.empty()) {
+        loaded.remarks.push_back("there is no landmark file beside the scan");
+    } else {
+        loaded.landmarks = from_bosphorus_labels(read_lm3(entry.landmarks_file), &loaded.checks.sides);
+    }
+    if (!loaded.checks.sides.swapped_pairs.empty())
+        loaded.remarks.push_back(fmt::format("left and right labels are swapped against the rest: {}",
+                                             joined(loaded.checks.sides.swapped_pairs)));
+
+    const auto nearest = nearest_scan_points(loaded.scan, loaded.landmarks);
+    for (std::size_t m = 0; m < nearest.size(); ++m)
+        if (nearest[m].distance_mm >= loaded.checks.landmark_off_scan_mm) {
+            loaded.checks.landmark_off_scan_mm = nearest[m].distance_mm;
+            loaded.checks.landmark_off_scan = loaded.landmarks.all()[m].name;
+        }
+
+    loaded.checks.correlations = frame_correlations(loaded.scan);
+    check_frame(loaded.checks.correlations, loaded.remarks);
+    return loaded;
+}
+
+}  // namespace mimik::database

@@ -1,0 +1,42 @@
+#include "database/facs_codes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "tests/database/temporary_folder.h"
+
+namespace mimik::database {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(FacsCodes, side_unit_and_intensity_are_read) {
+    const auto codes = parse_facs_codes("title\r\n\r\nbs003_LFAU_12L_0 -> L12D + 25\r\n", "list");
+    ASSERT_EQ(codes.scores.size(), 1U);
+    EXPECT_THAT(codes.scores.begin()->second,
+                testing::ElementsAre(FacsScore{12, Side::left, 'D'}, FacsScore{25, Side::both, 0}));
+}
+
+TEST(FacsCodes, zero_is_a_score_of_nothing) {
+    const auto codes = parse_facs_codes("a\nb\nbs003_N_N_0 -> 0\n", "list");
+    ASSERT_EQ(codes.scores.size(), 1U);
+    EXPECT_TRUE(codes.scores.begin()->second.empty());
+}
+
+TEST(FacsCodes, a_line_that_is_not_understood_is_remarked_with_its_number) {
+    const auto codes = parse_facs_codes("a\nb\nbs003_N_N_0 -> 0\nbs003_E_FEAR_0 -> 1+F2\n", "list");
+    EXPECT_EQ(codes.scores.size(), 1U);
+    ASSERT_EQ(codes.remarks.size(), 1U);
+    EXPECT_THAT(codes.remarks[0], HasSubstr("list:4: 'bs003_E_FEAR_0 -> 1+F2'"));
+}
+
+TEST(FacsCodes, another_file_is_refused_by_name) {
+    EXPECT_THAT(message_of<InputError>([] { (void)parse_facs_codes("a\nb\nc\n", "list"); }),
+                HasSubstr("list: no line is of the form"));
+    EXPECT_THAT(message_of<InputError>([] { (void)parse_facs_codes(std::string(200'000, '\n'), "list"); }),
+                HasSubstr("list: more than 100000 lines"));
+}
+
+}  // namespace
+}  // namespace mimik::database

@@ -1,0 +1,216 @@
+#include "database/scan_database.h"
+
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "tests/database/made_face.h"
+#include "tests/database/temporary_folder.h"
+
+namespace mimik::database {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::vector<std::string> names_of(const std::vector<const ScanEntry*>& entries) {
+    std::vector<std::string> names;
+    for (const auto* entry : entries) names.push_back(entry->id.name());
+    return names;
+}
+
+std::vector<std::string> names_of(const ScanDatabase& database) {
+    std::vector<std::string> names;
+    for (const auto& entry : database.scans) names.push_back(entry.id.name());
+    return names;
+}
+
+TEST(ScanDatabase, a_folder_in_bosphorus_layout_is_listed_in_order) {
+    const TemporaryFolder folder;
+    for (const char* name : {"bs001_N_N_0", "bs000_LFAU_12_0", "bs000_N_N_1", "bs000_N_N_0", "bs000_LFAU_9_0"})
+        write_scan(folder.path(), name, make_face());
+    const auto database = open_database(folder.path());
+    EXPECT_THAT(names_of(database),
+                ElementsAre("bs000_N_N_0", "bs000_N_N_1", "bs000_LFAU_9_0", "bs000_LFAU_12_0", "bs001_N_N_0"));
+    EXPECT_THAT(database.subjects(), ElementsAre("bs000", "bs001"));
+    EXPECT_EQ(database.neutrals("bs000").size(), 2U);
+    ASSERT_NE(database.find(*parse_scan_name("bs000_lfau_12_0")), nullptr);
+    EXPECT_EQ(database.find(*parse_scan_name("bs000_LFAU_13_0")), nullptr);
+    EXPECT_TRUE(database.scans[0].scan_file.is_absolute());
+    EXPECT_THAT(database.remarks, IsEmpty());
+}
+
+TEST(ScanDatabase, files_that_fit_no_pattern_are_remarked_not_lost) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    std::filesystem::copy_file(folder.path() / "bs000/bs000_N_N_0.bnt", folder.path() / "bs000/odd.bnt");
+    std::filesystem::copy_file(folder.path() / "bs000/bs000_N_N_0.lm3", folder.path() / "bs000/bs000_N_N_7.lm3");
+    std::filesystem::create_directories(folder.path() / "other");
+    std::filesystem::copy_file(folder.path() / "bs000/bs000_N_N_0.bnt", folder.path() / "other/bs009_N_N_0.bnt");
+    const auto database = open_database(folder.path());
+    EXPECT_THAT(names_of(database), ElementsAre("bs000_N_N_0", "bs009_N_N_0"));
+    EXPECT_THAT(database.remarks, Contains(HasSubstr("odd.bnt: the name is not of the form")));
+    EXPECT_THAT(database.remarks, Contains(HasSubstr("there is no bs000_N_N_7.bnt beside it")));
+    EXPECT_THAT(database.remarks, Contains(HasSubstr("lies in the folder 'other' though its subject is 'bs009'")));
+}
+
+TEST(ScanDatabase, a_missing_or_empty_folder_is_refused_by_name) {
+    const TemporaryFolder folder;
+    EXPECT_THAT(message_of<InputError>([&] { (void)open_database(folder.path() / "none"); }),
+                HasSubstr("none: is not a folder"));
+    EXPECT_THAT(message_of<InputError>([&] { (void)open_database(folder.path()); }), HasSubstr("no scan found"));
+}
+
+TEST(ScanDatabase, unallowed_subjects_are_hidden_by_number_or_name) {
+    const TemporaryFolder folder;
+    for (const char* name : {"bs000_N_N_0", "bs001_N_N_0", "bs002_N_N_0"}) write_scan(folder.path(), name, make_face());
+    geometry::write_atomically(folder.path() / "unallowed_subjects.txt",
+                               "# not to be shown: bs002\r\nBS000\r\n1, bs077\nnobody\n");
+    const auto database = open_database(folder.path());
+    EXPECT_TRUE(database.hidden("bs000"));
+    EXPECT_TRUE(database.hidden("bs001"));
+    EXPECT_FALSE(database.hidden("bs002"));
+    EXPECT_TRUE(database.hidden("bs077"));  // also one whose scans are not here
+    EXPECT_THAT(database.remarks, Contains(HasSubstr("'nobody' is no subject")));
+}
+
+TEST(ScanDatabase, facs_codes_give_intensities_with_the_stronger_side) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_LFAU_12_0", make_face());
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    geometry::write_atomically(folder.path() / "facscodes.lst",
+                               "header\nheader\nbs000_LFAU_12_0 -> 6B+L12C+R12D+25\nbs000_N_N_0 -> 0\n");
+    const auto database = open_database(folder.path());
+    const auto* smile = database.find(*parse_scan_name("bs000_LFAU_12_0"));
+    EXPECT_EQ(smile->intensities, (std::map<int, char>{{6, 'B'}, {12, 'D'}, {25, 0}}));
+    ASSERT_EQ(smile->facs_scores.size(), 4U);
+    EXPECT_EQ(smile->facs_scores[1], (FacsScore{12, Side::left, 'C'}));
+    EXPECT_THAT(database.scans[0].intensities, IsEmpty());
+}
+
+class OneSided : public testing::TestWithParam<bool> {};
+
+TEST_P(OneSided, codes_are_taken_as_the_side_whose_mouth_corner_moves) {
+    const bool names_are_the_viewers = GetParam();
+    const TemporaryFolder folder;
+    const auto face = make_face();
+    for (const char* subject : {"bs000", "bs001"}) {
+        write_scan(folder.path(), std::string(subject) + "_N_N_0", face);
+        for (const bool left : {true, false}) {
+            MadeFace smile = face;
+            // 8 mm up and out, as a smile does; the whole head 5 mm aside, which must not matter.
+            smile.landmarks = moved(face.landmarks,
+                                    {{left ? "mouth_corner_left" : "mouth_corner_right", {left ? 5.0 : -5.0, 6, -2}}});
+            geometry::Transform head = geometry::Transform::Identity();
+            head.translate(geometry::Vector(5, 1, 0)).rotate(Eigen::AngleAxisd(0.1, geometry::Vector::UnitY()));
+            smile.landmarks = transformed(smile.landmarks, head);
+            const bool named_left = left != names_are_the_viewers;
+            write_scan(folder.path(), std::string(subject) + (named_left ? "_LFAU_12L_0" : "_LFAU_12R_0"), smile);
+        }
+    }
+    const auto database = open_database(folder.path());
+    EXPECT_EQ(database.code_sides.swapped, names_are_the_viewers);
+    EXPECT_EQ(names_are_the_viewers ? database.code_sides.other_side : database.code_sides.own_side, 4);
+    const auto* left = database.find(*parse_scan_name("bs001_LFAU_12L_0"));
+    ASSERT_NE(left, nullptr);
+    EXPECT_EQ(left->id.side(), Side::left);
+    EXPECT_EQ(left->file_name_stem, names_are_the_viewers ? "bs001_LFAU_12R_0" : "bs001_LFAU_12L_0");
+    const auto neutral = load(*database.find(*parse_scan_name("bs001_N_N_0"))).landmarks;
+    EXPECT_EQ(decide_side(neutral, load(*left).landmarks).side, Side::left);
+}
+
+INSTANTIATE_TEST_SUITE_P(NamesAreTheSubjectsAndTheViewers, OneSided, testing::Values(false, true));
+
+TEST(OneSidedCodes, equal_motion_of_both_corners_decides_nothing) {
+    const auto neutral = make_face().landmarks;
+    const auto smile = moved(neutral, {{"mouth_corner_left", {5, 6, -2}}, {"mouth_corner_right", {-5, 6, -2}}});
+    EXPECT_EQ(decide_side(neutral, smile).side, Side::both);
+    EXPECT_EQ(decide_side(neutral, neutral).side, Side::both);
+}
+
+TEST(OneSidedCodes, defaults_are_valid_and_a_bad_option_is_named) {
+    EXPECT_NO_THROW(SideDecisionOptions{}.check());
+    EXPECT_THAT(message_of<InputError>([] { SideDecisionOptions{.min_ratio = 0.5}.check(); }),
+                HasSubstr("min_ratio is 0.5"));
+}
+
+TEST(Selecting, goes_by_subject_group_action_unit_and_side) {
+    const TemporaryFolder folder;
+    for (const char* name :
+         {"bs000_N_N_0", "bs000_LFAU_12_0", "bs000_LFAU_12LW_0", "bs000_LFAU_12L_0", "bs000_UFAU_4_0", "bs001_N_N_0"})
+        write_scan(folder.path(), name, make_face());
+    const auto database = open_database(folder.path());
+    EXPECT_THAT(names_of(select(database, {.subjects = {"BS001"}})), ElementsAre("bs001_N_N_0"));
+    EXPECT_THAT(names_of(select(database, {.groups = {"ufau"}})), ElementsAre("bs000_UFAU_4_0"));
+    EXPECT_THAT(names_of(select(database, {.action_units = {12}, .side = Side::left})),
+                ElementsAre("bs000_LFAU_12L_0"));
+    EXPECT_EQ(select(database, {.action_units = {12, 4}}).size(), 4U);
+    EXPECT_EQ(select(database, {}).size(), 6U);
+    EXPECT_THAT(message_of<InputError>([&] { (void)select(database, {.subjects = {"bs009"}}); }),
+                HasSubstr("subject 'bs009' is not in"));
+    EXPECT_THAT(message_of<InputError>([&] { (void)select(database, {.groups = {"X"}}); }),
+                HasSubstr("there are N, LFAU, UFAU"));
+}
+
+TEST(Load, a_scan_comes_with_its_landmarks_on_the_subjects_own_side) {
+    const TemporaryFolder folder;
+    const auto face = make_face();
+    write_scan(folder.path(), "bs000_N_N_0", face);
+    const auto loaded = load(open_database(folder.path()).scans[0]);
+    EXPECT_EQ(loaded.scan.points_mm, face.scan.points_mm);
+    for (const auto& mark : face.landmarks.all())
+        EXPECT_EQ(loaded.landmarks.position_mm(mark.name), mark.position_mm) << mark.name;
+    EXPECT_TRUE(loaded.checks.sides.left_label_is_subject_right);
+    EXPECT_EQ(loaded.checks.landmark_off_scan_mm, 0);
+    EXPECT_THAT(loaded.remarks, IsEmpty());
+}
+
+TEST(Load, many_threads_read_the_same) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    const auto entry = open_database(folder.path()).scans[0];
+    const auto expected = load(entry).scan.points_mm;
+    std::vector<char> same(4, 0);
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < same.size(); ++t)
+        threads.emplace_back([&, t] { same[t] = load(entry).scan.points_mm == expected; });
+    for (auto& thread : threads) thread.join();
+    EXPECT_THAT(same, testing::Each(1));
+}
+
+TEST(Load, a_mirrored_scan_is_remarked) {
+    const TemporaryFolder folder;
+    auto face = make_face();
+    for (auto& p : face.scan.points_mm) p.x() = -p.x();
+    write_scan(folder.path(), "bs000_N_N_0", face);
+    EXPECT_THAT(load(open_database(folder.path()).scans[0]).remarks,
+                Contains(HasSubstr("x falls as the texture's u grows")));
+}
+
+TEST(Load, a_scan_without_any_point_is_refused) {
+    const TemporaryFolder folder;
+    auto face = make_face();
+    for (auto& p : face.scan.points_mm) p.setConstant(std::numeric_limits<double>::quiet_NaN());
+    write_scan(folder.path(), "bs000_N_N_0", face);
+    EXPECT_THAT(message_of<InputError>([&] { (void)load(open_database(folder.path()).scans[0]); }),
+                HasSubstr("bs000_N_N_0.bnt: holds no measured point"));
+}
+
+TEST(Load, a_texture_name_with_a_folder_is_refused_with_the_file) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    const auto file = folder.path() / "bs000/bs000_N_N_0.bnt";
+    Bnt bnt = read_bnt(file);
+    bnt.texture_file = "../../secret.png";
+    write_bnt(file, bnt);
+    EXPECT_THAT(message_of<InputError>([&] { (void)load(open_database(folder.path()).scans[0]); }),
+                testing::AllOf(HasSubstr("bs000_N_N_0.bnt: "), HasSubstr("../../secret.png")));
+}
+
+}  // namespace
+}  // namespace mimik::database
