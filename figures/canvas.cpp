@@ -1,0 +1,144 @@
+#include "figures/canvas.h"
+
+// VTK 9.1 drops every letter beyond ASCII from plain strings; the class that keeps them is the one it calls deprecated.
+#define VTK_DEPRECATION_LEVEL 0
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include <vtkFreeTypeTools.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkTextProperty.h>
+#include <vtkUnicodeString.h>
+
+namespace mimik::figures {
+namespace {
+
+constexpr int dots_per_inch = 72;  // a font size of one point is then one pixel
+
+vtkFreeTypeTools& free_type() {
+    vtkFreeTypeTools& tools = *vtkFreeTypeTools::GetInstance();
+    tools.ScaleToPowerTwoOff();
+    return tools;
+}
+
+void set_font(vtkTextProperty& property, int size_px) {
+    // DejaVu has every letter a caption may need; the font that VTK carries inside itself has few beyond ASCII.
+    constexpr const char* dejavu = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+    static const bool has_dejavu = std::filesystem::exists(dejavu);
+    property.SetFontFamily(has_dejavu ? VTK_FONT_FILE : VTK_ARIAL);
+    if (has_dejavu) property.SetFontFile(dejavu);
+    property.SetFontSize(size_px);
+    property.SetColor(0, 0, 0);
+    property.SetJustificationToLeft();
+    property.SetVerticalJustificationToBottom();
+}
+
+/// Bytes that are no UTF-8 are shown as '?': a wrong letter in a caption must not cost the figure.
+vtkUnicodeString letters_of(const std::string& line) {
+    if (vtkUnicodeString::is_utf8(line)) return vtkUnicodeString::from_utf8(line);
+    std::string plain = line;
+    for (auto& c : plain)
+        if (static_cast<unsigned char>(c) > 126) c = '?';
+    return vtkUnicodeString::from_utf8(plain);
+}
+
+/// Left, right, lowest and highest pixel of a line whose pen starts at (0, 0).
+std::array<int, 4> text_box(const std::string& line, int size_px) {
+    std::array<int, 4> box{};
+    if (line.empty()) return box;
+    vtkNew<vtkTextProperty> property;
+    set_font(*property, size_px);
+    if (!free_type().GetBoundingBox(property, letters_of(line), dots_per_inch, box.data())) return {0, -1, 0, -1};
+    return box;
+}
+
+}  // namespace
+
+Canvas::Canvas(int width, int height, const Colour& background) {
+    image_.width = width;
+    image_.height = height;
+    image_.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    fill(0, 0, width, height, background);
+}
+
+void Canvas::blend(int x, int y, const Colour& colour, double cover) {
+    if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return;
+    const std::size_t first =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(x));
+    for (std::size_t k = 0; k < 3; ++k) {
+        auto& value = image_.rgb[first + k];
+        value = static_cast<std::uint8_t>(std::lround(value + cover * (colour[k] - value)));
+    }
+}
+
+void Canvas::fill(int x, int y, int width, int height, const Colour& colour) {
+    for (int row = y; row < y + height; ++row)
+        for (int col = x; col < x + width; ++col) blend(col, row, colour, 1);
+}
+
+void Canvas::disc(double centre_x, double centre_y, double radius, const Colour& colour) {
+    for (int row = static_cast<int>(centre_y - radius) - 1; row <= centre_y + radius + 1; ++row)
+        for (int col = static_cast<int>(centre_x - radius) - 1; col <= centre_x + radius + 1; ++col)
+            blend(col, row, colour,
+                  std::clamp(radius + 0.5 - std::hypot(col + 0.5 - centre_x, row + 0.5 - centre_y), 0.0, 1.0));
+}
+
+void Canvas::place(int x, int y, const geometry::Image& picture) {
+    for (int row = 0; row < picture.height; ++row)
+        for (int col = 0; col < picture.width; ++col) {
+            const auto* pixel =
+                &picture.rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
+                                  static_cast<std::size_t>(col))];
+            blend(x + col, y + row, {pixel[0], pixel[1], pixel[2]}, 1);
+        }
+}
+
+void Canvas::text(double x, int baseline_y, const std::string& line, int size_px, double anchor, const Colour& colour) {
+    if (line.empty()) return;
+    vtkNew<vtkTextProperty> property;
+    set_font(*property, size_px);
+    vtkNew<vtkImageData> letters;
+    std::array<int, 2> size{};
+    if (!free_type().RenderString(property, letters_of(line), dots_per_inch, letters, size.data())) return;
+    const auto box = text_box(line, size_px);
+    std::array<int, 6> extent{};
+    letters->GetExtent(extent.data());
+    const int left = static_cast<int>(std::lround(x - anchor * (box[1] - box[0] + 1)));
+    for (int row = extent[2]; row <= extent[3]; ++row)
+        for (int col = extent[0]; col <= extent[1]; ++col) {
+            const auto* rgba = static_cast<const unsigned char*>(letters->GetScalarPointer(col, row, 0));
+            blend(left + col - extent[0], baseline_y - row, colour, rgba[3] / 255.0);
+        }
+}
+
+int text_width(const std::string& line, int size_px) {
+    const auto box = text_box(line, size_px);
+    return line.empty() ? 0 : box[1] - box[0] + 1;
+}
+
+std::vector<std::string> wrapped(const std::string& text, int size_px, int width_px) {
+    std::vector<std::string> lines;
+    std::istringstream paragraphs(text);
+    for (std::string paragraph; std::getline(paragraphs, paragraph);) {
+        std::istringstream words(paragraph);
+        std::string line;
+        for (std::string word; words >> word;) {
+            const std::string longer = line.empty() ? word : line + ' ' + word;
+            if (!line.empty() && text_width(longer, size_px) > width_px) {
+                lines.push_back(line);
+                line = word;
+            } else {
+                line = longer;
+            }
+        }
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+}  // namespace mimik::figures

@@ -1,0 +1,413 @@
+#include "figures/figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <vtkRenderWindow.h>
+
+#include "figures/canvas.h"
+#include "figures/offscreen.h"
+#include "figures/panel_scene.h"
+#include "geometry/errors.h"
+
+namespace mimik::figures {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+using Range = std::array<double, 2>;
+
+constexpr Colour ink = {20, 20, 20};
+
+/// Least and greatest coordinate in a view's axes (right, up, towards the viewer).
+struct Box {
+    Vector low = Vector::Constant(std::numeric_limits<double>::infinity());
+    Vector high = Vector::Constant(-std::numeric_limits<double>::infinity());
+    void add(const Vector& p) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    [[nodiscard]] bool empty() const { return !(low.x() <= high.x()); }
+    [[nodiscard]] Vector middle() const { return 0.5 * (low + high); }
+    [[nodiscard]] Vector size() const { return high - low; }
+};
+
+/// What a panel draws of its mesh: corners of whole faces, or every finite vertex of a cloud.
+template <class Visit>
+void visit_drawn(const geometry::Mesh& mesh, const Visit& visit) {
+    const auto finite = [&](std::uint32_t v) { return mesh.vertices_mm[v].allFinite(); };
+    if (mesh.faces.size() == 0) {
+        for (const auto& p : mesh.vertices_mm)
+            if (p.allFinite()) visit(p);
+        return;
+    }
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const auto face = mesh.faces[f];
+        if (std::all_of(face.begin(), face.end(), finite))
+            for (const auto v : face) visit(mesh.vertices_mm[v]);
+    }
+}
+
+Box box_in_view(const Panel& panel) {
+    const Eigen::Matrix3d axes = view_axes(panel.view);
+    Box box;
+    visit_drawn(panel.mesh, [&](const Point& p) { box.add(axes * p); });
+    return box;
+}
+
+void check_panel(const Panel& panel, const std::string& where) {
+    const auto& mesh = panel.mesh;
+    const auto vertices = mesh.vertices_mm.size();
+    const auto require = [&](bool good, const std::string& what) {
+        if (!good) throw InputError(where + what);
+    };
+    for (const auto corner : mesh.faces.corners)
+        require(corner < vertices, fmt::format("a face has the corner {}; there are {} vertices", corner, vertices));
+    require(mesh.colours.empty() || mesh.colours.size() == vertices,
+            fmt::format("{} colours for {} vertices", mesh.colours.size(), vertices));
+    require(std::isfinite(panel.view.yaw_deg) && std::abs(panel.view.yaw_deg) <= 180,
+            fmt::format("yaw_deg is {}; give -180 to 180", panel.view.yaw_deg));
+    require(std::isfinite(panel.view.pitch_deg) && std::abs(panel.view.pitch_deg) <= 89,
+            fmt::format("pitch_deg is {}; give -89 to 89", panel.view.pitch_deg));
+    if (panel.texture && !panel.scalar && vertices > 0) {
+        const auto& image = *panel.texture;
+        require(
+            image.width > 0 && image.height > 0 &&
+                image.rgb.size() == 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+            fmt::format("the texture is {} x {} with {} bytes", image.width, image.height, image.rgb.size()));
+        require(!mesh.texture_coordinates.empty(), "there is a texture, but the mesh has no texture coordinates");
+        const auto& texture_corners = mesh.faces.texture_corners;
+        require(texture_corners.empty() ? mesh.texture_coordinates.size() == vertices
+                                        : texture_corners.size() == mesh.faces.corners.size(),
+                "texture coordinates do not go with the vertices");
+        for (const auto corner : texture_corners)
+            require(corner < mesh.texture_coordinates.size(), fmt::format("texture corner {} of {} texture coordinates",
+                                                                          corner, mesh.texture_coordinates.size()));
+    }
+    for (const auto& set : panel.markers) {
+        require(set.radius_mm > 0 && set.radius_mm < 1000,
+                fmt::format("markers '{}': radius_mm is {}; give more than 0", set.name, set.radius_mm));
+        for (const auto& p : set.positions_mm)
+            require(p.allFinite(), fmt::format("markers '{}': a position is not finite", set.name));
+    }
+    for (const auto& set : panel.arrows) {
+        require(set.radius_mm > 0 && set.radius_mm < 1000,
+                fmt::format("arrows '{}': radius_mm is {}; give more than 0", set.name, set.radius_mm));
+        for (const auto& a : set.arrows)
+            require(a.from_mm.allFinite() && a.to_mm.allFinite(),
+                    fmt::format("arrows '{}': an end is not finite", set.name));
+    }
+    if (panel.scalar && panel.scalar->range)
+        require(std::isfinite((*panel.scalar->range)[0]) && std::isfinite((*panel.scalar->range)[1]) &&
+                    (*panel.scalar->range)[0] < (*panel.scalar->range)[1],
+                fmt::format("scalar '{}': range is {} to {}; give a lower and an upper value", panel.scalar->attribute,
+                            (*panel.scalar->range)[0], (*panel.scalar->range)[1]));
+}
+
+/// Where a panel's colour map begins and ends.
+Range scalar_range(const Figure& figure, const Scalar& scalar) {
+    if (scalar.range) return *scalar.range;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& panel : figure.panels) {
+        if (!panel.scalar || panel.scalar->attribute != scalar.attribute || panel.mesh.vertices_mm.empty()) continue;
+        for (const double value : scalar_values(panel.mesh, scalar.attribute)) {
+            if (!std::isfinite(value)) continue;
+            low = std::min(low, value);
+            high = std::max(high, value);
+        }
+    }
+    if (!(low <= high)) return {0, 1};
+    if (scalar.map == ColourMap::diverging) {
+        high = std::max(std::abs(low), std::abs(high));
+        low = -high;
+    } else {
+        low = std::min(low, 0.0);
+    }
+    return low < high ? Range{low, high} : Range{low, low + 1};
+}
+
+std::string bar_label(const Scalar& scalar) { return scalar.label.empty() ? scalar.attribute : scalar.label; }
+
+/// A panel's colour bar; two panels with equal ones share it.
+struct Bar {
+    std::string label;
+    Range range;
+    ColourMap map;
+    bool operator==(const Bar&) const = default;
+};
+
+/// Steps of 1, 2 or 5 times a power of ten, about five of them.
+std::vector<double> ticks(const Range& range) {
+    const double rough = (range[1] - range[0]) / 5, power = std::pow(10, std::floor(std::log10(rough)));
+    const double step = power * (rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10);
+    std::vector<double> values;
+    for (double k = std::ceil(range[0] / step - 1e-9); k * step <= range[1] + 1e-9 * step; ++k)
+        values.push_back(k == 0 ? 0 : k * step);
+    return values;
+}
+
+std::string tick_text(double value, const Range& range) {
+    const double step = (range[1] - range[0]) / 5;
+    return fmt::format("{:.{}f}", value, std::clamp(static_cast<int>(std::ceil(0.3 - std::log10(step))), 0, 9));
+}
+
+/// Width in pixels that a bar with its numbers and its label takes.
+int bar_width(const Bar& bar, int font_px) {
+    int numbers = 0;
+    for (const double value : ticks(bar.range))
+        numbers = std::max(numbers, text_width(tick_text(value, bar.range), font_px));
+    return std::max(font_px + font_px / 2 + numbers, text_width(bar.label, font_px)) + font_px;
+}
+
+void draw_bar(Canvas& canvas, const Bar& bar, int x, int y, int height, int font_px) {
+    canvas.text(x, y + font_px, bar.label, font_px, 0, ink);
+    const int top = y + 2 * font_px, rows = height - 3 * font_px, width = font_px;
+    canvas.fill(x - 1, top - 1, width + 2, rows + 2, ink);
+    for (int row = 0; row < rows; ++row)
+        canvas.fill(x, top + row, width, 1, map_colour(bar.map, 1 - (row + 0.5) / rows));
+    for (const double value : ticks(bar.range)) {
+        const double t = (value - bar.range[0]) / (bar.range[1] - bar.range[0]);
+        const int at = top + static_cast<int>(std::lround((1 - t) * (rows - 1)));
+        canvas.fill(x + width, at, std::max(2, font_px / 4), 1, ink);
+        canvas.text(x + width + font_px / 2.0, at + static_cast<int>(std::lround(0.36 * font_px)),
+                    tick_text(value, bar.range), font_px, 0, ink);
+    }
+}
+
+struct LegendEntry {
+    std::string name;
+    Colour colour;
+    bool operator==(const LegendEntry&) const = default;
+};
+
+std::vector<LegendEntry> legend_entries(const Figure& figure) {
+    std::vector<LegendEntry> entries;
+    const auto add = [&](const auto& sets) {
+        for (const auto& set : sets) {
+            const LegendEntry entry{set.name, set.colour};
+            if (!set.name.empty() && std::find(entries.begin(), entries.end(), entry) == entries.end())
+                entries.push_back(entry);
+        }
+    };
+    for (const auto& panel : figure.panels) {
+        add(panel.markers);
+        add(panel.arrows);
+    }
+    return entries;
+}
+
+/// Everything about the page that does not need drawing.
+struct Layout {
+    int columns = 1, rows = 1;
+    int margin = 0, title_height = 0, legend_height = 0;
+    int line_height = 0;
+    std::vector<std::vector<std::string>> captions;  ///< lines per panel
+    std::vector<int> row_height;                     ///< panel and caption
+    std::vector<std::optional<Bar>> bars;            ///< per panel
+    std::optional<Bar> shared_bar;                   ///< at the right of all panels
+    int cell_width = 0, bar_strip = 0;               ///< bar_strip: beside each panel, or once at the right
+    int width = 0, height = 0;
+};
+
+int title_font_px(const Figure& figure) { return figure.font_size_px * 13 / 10; }
+int bar_font_px(const Figure& figure) { return std::max(9, figure.font_size_px * 85 / 100); }
+
+int chosen_columns(const Figure& figure) {
+    const int count = static_cast<int>(figure.panels.size());
+    if (figure.columns > 0) return std::min(figure.columns, count);
+    return count <= 4 ? count : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
+}
+
+Layout lay_out(const Figure& figure) {
+    Layout page;
+    const int count = static_cast<int>(figure.panels.size());
+    page.columns = chosen_columns(figure);
+    page.rows = (count + page.columns - 1) / page.columns;
+    page.margin = std::max(4, figure.font_size_px / 2);
+    page.line_height = figure.font_size_px * 125 / 100;
+    if (!figure.title.empty()) page.title_height = title_font_px(figure) * 17 / 10;
+    if (figure.legend && !legend_entries(figure).empty()) page.legend_height = page.line_height + page.margin;
+
+    bool one_for_all = true;
+    const Bar* first = nullptr;
+    page.bars.resize(figure.panels.size());
+    for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+        const auto& panel = figure.panels[p];
+        page.captions.push_back(wrapped(panel.caption, figure.font_size_px, figure.panel_width_px));
+        if (!panel.scalar || panel.mesh.vertices_mm.empty()) continue;
+        page.bars[p] = Bar{bar_label(*panel.scalar), scalar_range(figure, *panel.scalar), panel.scalar->map};
+        page.bar_strip = std::max(page.bar_strip, bar_width(*page.bars[p], bar_font_px(figure)));
+        if (first == nullptr) first = &*page.bars[p];
+        one_for_all = one_for_all && *page.bars[p] == *first;
+    }
+    if (first != nullptr && one_for_all) page.shared_bar = *first;
+    page.cell_width = figure.panel_width_px + (page.shared_bar ? 0 : page.bar_strip);
+
+    for (int row = 0; row < page.rows; ++row) {
+        std::size_t lines = 0;
+        for (int p = row * page.columns; p < std::min(count, (row + 1) * page.columns); ++p)
+            lines = std::max(lines, page.captions[static_cast<std::size_t>(p)].size());
+        page.row_height.push_back(
+            figure.panel_height_px +
+            (lines == 0 ? 0 : static_cast<int>(lines) * page.line_height + figure.font_size_px / 2));
+        page.height += page.row_height.back();
+    }
+    page.width =
+        page.columns * page.cell_width + (page.columns + 1) * page.margin + (page.shared_bar ? page.bar_strip : 0);
+    page.height += (page.rows + 1) * page.margin + page.title_height + page.legend_height;
+    constexpr std::int64_t most_pixels = 100'000'000;  // what the PNG reader takes, too
+    if (std::int64_t{page.width} * page.height > most_pixels)
+        throw InputError(
+            fmt::format("the figure would be {} x {} pixels; give smaller or fewer panels (at most {} "
+                        "pixels in all)",
+                        page.width, page.height, most_pixels));
+    return page;
+}
+
+/// One scale for all panels, and the middle of each.
+std::vector<PanelCamera> aim_cameras(const Figure& figure) {
+    std::vector<PanelCamera> cameras(figure.panels.size());
+    std::vector<Box> boxes;
+    for (const auto& panel : figure.panels) boxes.push_back(box_in_view(panel));
+
+    Box everything;  // in the frame of the faces
+    if (figure.framing == Framing::common)
+        for (const auto& panel : figure.panels) visit_drawn(panel.mesh, [&](const Point& p) { everything.add(p); });
+
+    double mm_per_px = 0;
+    for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+        const auto& panel = figure.panels[p];
+        cameras[p].view = panel.view;
+        if (boxes[p].empty()) continue;
+        const Eigen::Matrix3d axes = view_axes(panel.view);
+        if (panel.centre_mm)
+            cameras[p].centre_mm = *panel.centre_mm;
+        else if (figure.framing == Framing::common)
+            cameras[p].centre_mm = everything.middle();
+        else
+            cameras[p].centre_mm = axes.transpose() * boxes[p].middle();
+        const Vector centre = axes * cameras[p].centre_mm;
+        const Vector reach = (boxes[p].high - centre).cwiseMax(centre - boxes[p].low);
+        constexpr double air = 1.04;  // a face that touches the edge looks cut
+        mm_per_px = std::max(
+            {mm_per_px, 2 * air * reach.x() / figure.panel_width_px, 2 * air * reach.y() / figure.panel_height_px});
+    }
+    if (figure.height_mm) mm_per_px = *figure.height_mm / figure.panel_height_px;
+    if (!(mm_per_px > 0)) mm_per_px = 1;
+    for (auto& camera : cameras) camera.mm_per_px = mm_per_px;
+    return cameras;
+}
+
+void draw_legend(Canvas& canvas, const Figure& figure, const Layout& page) {
+    const auto entries = legend_entries(figure);
+    const int font = figure.font_size_px, dot = font, gap = 2 * font;
+    int width = -gap;
+    for (const auto& entry : entries) width += dot + text_width(entry.name, font) + gap;
+    double x = (page.width - width) / 2.0;
+    const int baseline = page.height - page.margin - font / 3;
+    for (const auto& entry : entries) {
+        canvas.disc(x + 0.35 * font, baseline - 0.36 * font, 0.3 * font, entry.colour);
+        canvas.text(x + dot, baseline, entry.name, font, 0, ink);
+        x += dot + text_width(entry.name, font) + gap;
+    }
+}
+
+void draw_scale_bar(Canvas& canvas, const Figure& figure, int x, int y, double mm_per_px) {
+    const int font = bar_font_px(figure), length = static_cast<int>(std::lround(figure.scale_bar_mm / mm_per_px));
+    const int foot = y + figure.panel_height_px - font / 2;
+    canvas.fill(x, foot, length, std::max(2, font / 6), ink);
+    canvas.text(x + length / 2.0, foot - font / 3, fmt::format("{:g} mm", figure.scale_bar_mm), font, 0.5, ink);
+}
+
+}  // namespace
+
+View parse_view(const std::string& name) {
+    static const std::vector<std::pair<std::string, View>> views = {
+        {"front", {0, 0}},
+        {"left", {90, 0}},
+        {"right", {-90, 0}},
+        {"three-quarter-left", {35, 0}},
+        {"three-quarter-right", {-35, 0}},
+        {"three-quarter", {35, 0}},
+    };
+    std::string names;
+    for (const auto& [known, view] : views) {
+        if (known == name) return view;
+        names += (names.empty() ? "" : ", ") + known;
+    }
+    throw InputError(fmt::format("view '{}' is not known; give one of {}", name, names));
+}
+
+Framing parse_framing(const std::string& name) {
+    if (name == "own") return Framing::own;
+    if (name == "common") return Framing::common;
+    throw InputError(fmt::format("framing '{}' is not known; give own or common", name));
+}
+
+void Figure::check() const {
+    if (panels.empty()) throw InputError("the figure has no panel; give at least one mesh");
+    const auto within = [](const char* field, double value, double low, double high) {
+        if (!(value >= low && value <= high))
+            throw InputError(fmt::format("{} is {}; give {} to {}", field, value, low, high));
+    };
+    within("columns", columns, 0, 1000);
+    within("panel_width_px", panel_width_px, 16, 8000);
+    within("panel_height_px", panel_height_px, 16, 8000);
+    within("font_size_px", font_size_px, 6, 200);
+    within("scale_bar_mm", scale_bar_mm, 0, 1e6);
+    within("supersampling", supersampling, 1, 4);
+    if (height_mm) within("height_mm", *height_mm, 1e-6, 1e9);
+    for (std::size_t p = 0; p < panels.size(); ++p)
+        check_panel(panels[p], fmt::format("panel {}{}: ", p + 1,
+                                           panels[p].caption.empty() ? "" : fmt::format(" ('{}')", panels[p].caption)));
+}
+
+geometry::Image render(const Figure& figure) {
+    figure.check();
+    const Layout page = lay_out(figure);
+    const auto cameras = aim_cameras(figure);
+    Canvas canvas(page.width, page.height, figure.background);
+    if (!figure.title.empty())
+        canvas.text(page.width / 2.0, page.margin + title_font_px(figure), figure.title, title_font_px(figure), 0.5,
+                    ink);
+
+    int y = page.margin + page.title_height;
+    for (int row = 0; row < page.rows; ++row) {
+        for (int col = 0; col < page.columns; ++col) {
+            const auto p = static_cast<std::size_t>(row * page.columns + col);
+            if (p >= figure.panels.size()) break;
+            const auto& panel = figure.panels[p];
+            const int x = page.margin + col * (page.cell_width + page.margin);
+            if (!panel.mesh.vertices_mm.empty())
+                canvas.place(x, y,
+                             draw_panel(panel, cameras[p], figure, page.bars[p] ? page.bars[p]->range : Range{0, 1}));
+            if (page.bars[p] && !page.shared_bar)
+                draw_bar(canvas, *page.bars[p], x + figure.panel_width_px + figure.font_size_px / 3, y,
+                         figure.panel_height_px, bar_font_px(figure));
+            if (p == 0 && figure.scale_bar_mm > 0)
+                draw_scale_bar(canvas, figure, x + page.margin, y, cameras[0].mm_per_px);
+            int baseline = y + figure.panel_height_px + figure.font_size_px * 5 / 4;
+            for (const auto& line : page.captions[p]) {
+                canvas.text(x + figure.panel_width_px / 2.0, baseline, line, figure.font_size_px, 0.5, ink);
+                baseline += page.line_height;
+            }
+        }
+        if (page.shared_bar && row == 0)
+            draw_bar(canvas, *page.shared_bar, page.columns * (page.cell_width + page.margin) + page.margin, y,
+                     figure.panel_height_px, bar_font_px(figure));
+        y += page.row_height[static_cast<std::size_t>(row)] + page.margin;
+    }
+    if (page.legend_height > 0) draw_legend(canvas, figure, page);
+    return canvas.image();
+}
+
+std::string drawing_route() {
+    std::string answer;
+    with_offscreen_window([&](vtkRenderWindow&, const std::string& route) { answer = route; });
+    return answer;
+}
+
+}  // namespace mimik::figures
