@@ -199,17 +199,45 @@ std::vector<LegendEntry> legend_entries(const Figure& figure) {
     return entries;
 }
 
+int legend_entry_width(const LegendEntry& entry, int font_px) { return font_px + text_width(entry.name, font_px); }
+
+/// Entries in lines that are no wider than the page; two letters' width between neighbours.
+std::vector<std::vector<LegendEntry>> legend_lines(const Figure& figure, int width_px) {
+    std::vector<std::vector<LegendEntry>> lines;
+    int used = 0;
+    if (!figure.legend) return lines;
+    for (const auto& entry : legend_entries(figure)) {
+        const int width = legend_entry_width(entry, figure.font_size_px) + 2 * figure.font_size_px;
+        if (lines.empty() || used + width > width_px + 2 * figure.font_size_px) {
+            lines.emplace_back();
+            used = 0;
+        }
+        lines.back().push_back(entry);
+        used += width;
+    }
+    return lines;
+}
+
 /// Everything about the page that does not need drawing.
 struct Layout {
     int columns = 1, rows = 1;
-    int margin = 0, title_height = 0, legend_height = 0;
-    int line_height = 0;
+    int margin = 0;
+    int line_height = 0, title_line_height = 0;
+    std::vector<std::string> title;
+    std::vector<std::vector<LegendEntry>> legend;
     std::vector<std::vector<std::string>> captions;  ///< lines per panel
     std::vector<int> row_height;                     ///< panel and caption
     std::vector<std::optional<Bar>> bars;            ///< per panel
     std::optional<Bar> shared_bar;                   ///< at the right of all panels
     int cell_width = 0, bar_strip = 0;               ///< bar_strip: beside each panel, or once at the right
     int width = 0, height = 0;
+
+    [[nodiscard]] int title_height() const {
+        return title.empty() ? 0 : static_cast<int>(title.size()) * title_line_height + margin;
+    }
+    [[nodiscard]] int legend_height() const {
+        return legend.empty() ? 0 : static_cast<int>(legend.size()) * line_height + margin;
+    }
 };
 
 int title_font_px(const Figure& figure) { return figure.font_size_px * 13 / 10; }
@@ -228,8 +256,7 @@ Layout lay_out(const Figure& figure) {
     page.rows = (count + page.columns - 1) / page.columns;
     page.margin = std::max(4, figure.font_size_px / 2);
     page.line_height = figure.font_size_px * 125 / 100;
-    if (!figure.title.empty()) page.title_height = title_font_px(figure) * 17 / 10;
-    if (figure.legend && !legend_entries(figure).empty()) page.legend_height = page.line_height + page.margin;
+    page.title_line_height = title_font_px(figure) * 125 / 100;
 
     bool one_for_all = true;
     const Bar* first = nullptr;
@@ -257,7 +284,10 @@ Layout lay_out(const Figure& figure) {
     }
     page.width =
         page.columns * page.cell_width + (page.columns + 1) * page.margin + (page.shared_bar ? page.bar_strip : 0);
-    page.height += (page.rows + 1) * page.margin + page.title_height + page.legend_height;
+    const int inner_width = page.width - 2 * page.margin;
+    page.title = wrapped(figure.title, title_font_px(figure), inner_width);
+    page.legend = legend_lines(figure, inner_width);
+    page.height += (page.rows + 1) * page.margin + page.title_height() + page.legend_height();
     constexpr std::int64_t most_pixels = 100'000'000;  // what the PNG reader takes, too
     if (std::int64_t{page.width} * page.height > most_pixels)
         throw InputError(
@@ -302,16 +332,18 @@ std::vector<PanelCamera> aim_cameras(const Figure& figure) {
 }
 
 void draw_legend(Canvas& canvas, const Figure& figure, const Layout& page) {
-    const auto entries = legend_entries(figure);
-    const int font = figure.font_size_px, dot = font, gap = 2 * font;
-    int width = -gap;
-    for (const auto& entry : entries) width += dot + text_width(entry.name, font) + gap;
-    double x = (page.width - width) / 2.0;
-    const int baseline = page.height - page.margin - font / 3;
-    for (const auto& entry : entries) {
-        canvas.disc(x + 0.35 * font, baseline - 0.36 * font, 0.3 * font, entry.colour);
-        canvas.text(x + dot, baseline, entry.name, font, 0, ink);
-        x += dot + text_width(entry.name, font) + gap;
+    const int font = figure.font_size_px, gap = 2 * font;
+    int baseline = page.height - page.margin - font / 3 - static_cast<int>(page.legend.size() - 1) * page.line_height;
+    for (const auto& line : page.legend) {
+        int width = -gap;
+        for (const auto& entry : line) width += legend_entry_width(entry, font) + gap;
+        double x = (page.width - width) / 2.0;
+        for (const auto& entry : line) {
+            canvas.disc(x + 0.35 * font, baseline - 0.36 * font, 0.3 * font, entry.colour);
+            canvas.text(x + font, baseline, entry.name, font, 0, ink);
+            x += legend_entry_width(entry, font) + gap;
+        }
+        baseline += page.line_height;
     }
 }
 
@@ -370,11 +402,12 @@ geometry::Image render(const Figure& figure) {
     const Layout page = lay_out(figure);
     const auto cameras = aim_cameras(figure);
     Canvas canvas(page.width, page.height, figure.background);
-    if (!figure.title.empty())
-        canvas.text(page.width / 2.0, page.margin + title_font_px(figure), figure.title, title_font_px(figure), 0.5,
-                    ink);
-
-    int y = page.margin + page.title_height;
+    int y = page.margin;
+    for (const auto& line : page.title) {
+        canvas.text(page.width / 2.0, y + title_font_px(figure), line, title_font_px(figure), 0.5, ink);
+        y += page.title_line_height;
+    }
+    y = page.margin + page.title_height();
     for (int row = 0; row < page.rows; ++row) {
         for (int col = 0; col < page.columns; ++col) {
             const auto p = static_cast<std::size_t>(row * page.columns + col);
@@ -400,7 +433,7 @@ geometry::Image render(const Figure& figure) {
                      figure.panel_height_px, bar_font_px(figure));
         y += page.row_height[static_cast<std::size_t>(row)] + page.margin;
     }
-    if (page.legend_height > 0) draw_legend(canvas, figure, page);
+    if (!page.legend.empty()) draw_legend(canvas, figure, page);
     return canvas.image();
 }
 

@@ -28,10 +28,10 @@ inline constexpr Colour wrinkle_colour = {230, 150, 0};
 
 /// Points drawn as small balls on the face.
 struct MarkerSet {
-    std::string name;  ///< for the legend; sets of one name and colour share an entry
+    std::string name{};  ///< for the legend; sets of one name and colour share an entry
     Colour colour = landmark_colour;
     double radius_mm = 2.0;  ///< seen clearly where a face is 400 pixels high
-    std::vector<geometry::Point> positions_mm;
+    std::vector<geometry::Point> positions_mm{};
 };
 
 /// Straight arrows on the face, such as displacements of control points.
@@ -40,32 +40,32 @@ struct Arrow {
     geometry::Point to_mm = geometry::Point::Zero();
 };
 struct ArrowSet {
-    std::string name;
+    std::string name{};
     Colour colour = muscle_colour;
     double radius_mm = 0.5;
-    std::vector<Arrow> arrows;
+    std::vector<Arrow> arrows{};
 };
 
 /// Colours a face by an attribute of its mesh.
 struct Scalar {
-    std::string attribute;  ///< of the mesh; of several components the length is shown
-    std::string label;      ///< beside the bar, with the unit; empty: the attribute's name
+    std::string attribute{};  ///< of the mesh; of several components the length is shown
+    std::string label{};      ///< beside the bar, with the unit; empty: the attribute's name
     /// Values at the ends of the colour map; without: the least and greatest finite value of all panels that show the
     /// attribute (0 and greatest if none is negative; symmetric about 0 for ColourMap::diverging).
-    std::optional<std::array<double, 2>> range;
+    std::optional<std::array<double, 2>> range{};
     ColourMap map = ColourMap::sequential;
 };
 
 /// One face. A panel whose mesh has no vertices stays empty (a gap in the table, with its caption).
 struct Panel {
-    geometry::Mesh mesh;  ///< mm; faces with a corner that is not finite are left out; no faces: drawn as dots
-    std::optional<geometry::Image> texture;  ///< needs texture coordinates; used where `scalar` is not
-    std::vector<MarkerSet> markers;
-    std::vector<ArrowSet> arrows;
-    std::optional<Scalar> scalar;
-    std::string caption;  ///< UTF-8 (Latin-1 letters); wrapped to the panel's width; '\n' breaks a line
-    View view;
-    std::optional<geometry::Point> centre_mm;  ///< what the camera looks at; without: as Figure::framing says
+    geometry::Mesh mesh{};  ///< mm; faces with a corner that is not finite are left out; no faces: drawn as dots
+    std::optional<geometry::Image> texture{};  ///< needs texture coordinates; used where `scalar` is not
+    std::vector<MarkerSet> markers{};
+    std::vector<ArrowSet> arrows{};
+    std::optional<Scalar> scalar{};
+    std::string caption{};  ///< UTF-8 (Latin-1 letters); wrapped to the panel's width; '\n' breaks a line
+    View view{};
+    std::optional<geometry::Point> centre_mm{};  ///< what the camera looks at; without: as Figure::framing says
 };
 
 /// What the middle of a panel shows. The scale is one for all panels either way.
@@ -76,8 +76,8 @@ enum class Framing {
 [[nodiscard]] Framing parse_framing(const std::string& name);
 
 struct Figure {
-    std::vector<Panel> panels;
-    std::string title;
+    std::vector<Panel> panels{};
+    std::string title{};
     int columns = 0;  ///< 0: all in one row up to four, else near-square
     int panel_width_px = 400;
     int panel_height_px = 480;
@@ -85,7 +85,7 @@ struct Figure {
     Colour background = {255, 255, 255};
     Framing framing = Framing::own;
     /// Millimetres from the lower to the upper edge of a panel; without: what shows every face whole.
-    std::optional<double> height_mm;
+    std::optional<double> height_mm{};
     double scale_bar_mm = 0.0;  ///< length of a bar in the first panel; 0: none
     bool legend = false;        ///< a line that names the marker and arrow sets
     /// Each pixel is the mean of supersampling^2 drawn ones, on top of the renderer's own multisampling; 1 to 4.

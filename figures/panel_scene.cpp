@@ -145,6 +145,8 @@ vtkSmartPointer<vtkTexture> make_texture(const geometry::Image& image) {
     texture->SetInputData(data);
     texture->InterpolateOn();
     texture->MipmapOn();
+    texture->RepeatOff();  // the left edge of a photograph must not bleed into its right edge
+    texture->EdgeClampOn();
     return texture;
 }
 
@@ -213,7 +215,7 @@ vtkSmartPointer<vtkActor> face_actor(const Panel& panel, const std::array<double
     vtkProperty& look = *actor->GetProperty();
     // A photograph has light in it already and a colour map must stay readable: both are shaded more gently.
     look.SetAmbient(plain ? 0.14 : 0.35);
-    look.SetDiffuse(plain ? 0.95 : 0.70);
+    look.SetDiffuse(plain ? 0.95 : 0.80);
     look.SetSpecular(textured || !plain ? 0.0 : 0.10);
     look.SetSpecularPower(18);
     if (dots) {
