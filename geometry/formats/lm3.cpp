@@ -1,0 +1,69 @@
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+#include "geometry/formats/landmark_formats.h"
+#include "geometry/landmark_io.h"
+#include "geometry/text.h"
+
+namespace mimik::geometry::formats {
+
+RawLandmarks decode_lm3(std::string_view text, const std::string& name) {
+    LineReader lines(text, name);
+    // Comments and free text stand before the line "<N> landmarks:".
+    std::int64_t count = -1;
+    while (count < 0 && lines.next()) {
+        std::string_view rest = lines.line();
+        const auto number = next_word(rest);
+        if (!equal_ignoring_case(next_word(rest), "landmarks:") || number.starts_with('#')) continue;
+        const auto value = parse_integer(number);
+        if (!value || *value < 0)
+            lines.fail(fmt::format("the number of landmarks is {}, not a whole number", in_quotes(number)));
+        if (*value > static_cast<std::int64_t>(most_landmarks))
+            lines.fail(
+                fmt::format("the number of landmarks is {}, more than the {} that are read", *value, most_landmarks));
+        count = *value;
+    }
+    if (count < 0) throw InputError(fmt::format("{}: has no line '<N> landmarks:'; it is not an .lm3 file", name));
+    RawLandmarks raw;
+    for (std::int64_t i = 0; i < count; ++i) {
+        if (!lines.next_not_blank())
+            throw InputError(
+                fmt::format("{}: has {} of the {} landmarks that it announces; it is truncated", name, i, count));
+        const auto label = trimmed(lines.line());
+        if (!lines.next_not_blank())
+            throw InputError(
+                fmt::format("{}: landmark {} has no position; the file is truncated", name, in_quotes(label)));
+        std::string_view rest = lines.line();
+        Point position;
+        for (auto& coordinate : position) {
+            const auto word = next_word(rest);
+            const auto value = parse_double(word);
+            if (!value || !std::isfinite(*value))
+                lines.fail(
+                    fmt::format("coordinate of landmark {} is {}, not a finite number; leave a landmark that is not "
+                                "visible out, with its label",
+                                in_quotes(label), word.empty() ? "missing" : in_quotes(word)));
+            coordinate = *value;
+        }
+        if (const auto extra = next_word(rest); !extra.empty())
+            lines.fail(fmt::format("{} stands after the position of landmark {}", in_quotes(extra), in_quotes(label)));
+        add_mark(raw, label, position, name);
+    }
+    if (lines.next_not_blank())
+        lines.fail(fmt::format("{} stands after the {} landmarks that the file announces; correct the number",
+                               in_quotes(lines.line()), count));
+    return raw;
+}
+
+std::string encode_lm3(const Landmarks& landmarks) {
+    std::string text = fmt::format("# 3D landmarks, millimetres\n\n{} landmarks:\n", landmarks.size());
+    for (const auto& mark : landmarks.all())
+        fmt::format_to(std::back_inserter(text), "{}\n{:.17g} {:.17g} {:.17g}\n", mark.name, mark.position_mm.x(),
+                       mark.position_mm.y(), mark.position_mm.z());
+    return text;
+}
+
+}  // namespace mimik::geometry::formats

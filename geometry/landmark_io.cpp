@@ -1,0 +1,157 @@
+#include "geometry/landmark_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "geometry/csv.h"
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/formats/landmark_formats.h"
+#include "geometry/points_csv.h"
+#include "geometry/text.h"
+
+namespace mimik::geometry {
+namespace formats {
+
+void add_mark(RawLandmarks& raw, std::string_view label, const Point& position, const std::string& name) {
+    if (raw.marks.size() == most_landmarks)
+        throw InputError(fmt::format("{}: has more than {} landmarks (the next is {}); is it a list of mesh points?",
+                                     name, most_landmarks, in_quotes(label)));
+    raw.marks.push_back({std::string(label), position, std::string(label)});
+}
+
+}  // namespace formats
+
+namespace {
+
+formats::RawLandmarks decode_csv(std::string_view text, const std::string& name) {
+    CsvReader rows(text, name);
+    const auto label = rows.column("name"), x = rows.column("x"), y = rows.column("y"), z = rows.column("z");
+    formats::RawLandmarks raw;
+    while (rows.next()) {
+        if (rows.field(label).empty()) rows.fail("the name is empty; give every landmark a name");
+        formats::add_mark(raw, rows.field(label), {rows.number(x), rows.number(y), rows.number(z)}, name);
+    }
+    return raw;
+}
+
+double mean_distance(const std::vector<Landmark>& marks, const Point& signs, const std::vector<Point>& mesh_points) {
+    // Some marks spread over the list are enough to tell the frames apart.
+    const std::size_t step = 1 + marks.size() / 200;
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < marks.size(); i += step, ++count) {
+        const Point p = marks[i].position_mm.cwiseProduct(signs);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const auto& q : mesh_points) nearest = std::min(nearest, (q - p).squaredNorm());
+        sum += std::sqrt(nearest);
+    }
+    return sum / static_cast<double>(count);
+}
+
+/// Turns the marks to the frame (LPS or RAS) that lies on the mesh.
+void choose_frame(std::vector<Landmark>& marks, std::span<const Point> mesh_points_mm, const std::string& name) {
+    std::vector<Point> mesh_points;
+    for (const auto& p : mesh_points_mm)
+        if (p.allFinite()) mesh_points.push_back(p);
+    if (mesh_points.empty() || marks.empty()) return;
+    Eigen::AlignedBox3d box;
+    for (const auto& p : mesh_points) box.extend(p);
+
+    const Point turned_signs(-1, -1, 1);
+    const double as_written = mean_distance(marks, Point::Ones(), mesh_points);
+    const double turned = mean_distance(marks, turned_signs, mesh_points);
+    const double nearer = std::min(as_written, turned), limit = 0.05 * box.diagonal().norm();
+    if (!(nearer <= limit))
+        throw InputError(
+            fmt::format("{}: the landmarks lie on the mesh neither in LPS nor in RAS (mean distance {:.3g} mm as "
+                        "written, {:.3g} mm with x and y negated, at most {:.3g} mm is accepted); do they belong to "
+                        "this mesh, and is the unit right?",
+                        name, as_written, turned, limit));
+    if (nearer >= 0.5 * std::max(as_written, turned))
+        throw InputError(
+            fmt::format("{}: the landmarks lie on the mesh about as well in LPS as in RAS (mean distance {:.3g} mm "
+                        "as written, {:.3g} mm with x and y negated); save them as .csv in the mesh's own frame",
+                        name, as_written, turned));
+    if (turned < as_written)
+        for (auto& mark : marks) mark.position_mm = mark.position_mm.cwiseProduct(turned_signs);
+}
+
+}  // namespace
+
+LandmarkFormat landmark_format(const std::filesystem::path& file) {
+    const auto name = lower_case(file.filename().string());
+    if (name.ends_with(".csv")) return LandmarkFormat::csv;
+    if (name.ends_with(".pp")) return LandmarkFormat::pp;
+    if (name.ends_with(".fcsv")) return LandmarkFormat::fcsv;
+    if (name.ends_with(".mrk.json")) return LandmarkFormat::mrk_json;
+    if (name.ends_with(".lm3")) return LandmarkFormat::lm3;
+    throw InputError(
+        fmt::format("{}: extension {} is no landmark format; there are .csv, .pp, .fcsv, .mrk.json and .lm3",
+                    file.string(), in_quotes(file.extension().string())));
+}
+
+Landmarks decode_landmarks(LandmarkFormat format, std::string_view text, const std::string& name,
+                           std::span<const Point> mesh_points_mm, LengthUnit unit) {
+    auto raw = [&] {
+        switch (format) {
+            case LandmarkFormat::pp:
+                return formats::decode_pp(text, name);
+            case LandmarkFormat::fcsv:
+                return formats::decode_fcsv(text, name);
+            case LandmarkFormat::mrk_json:
+                return formats::decode_mrk_json(text, name);
+            case LandmarkFormat::lm3:
+                return formats::decode_lm3(text, name);
+            case LandmarkFormat::csv:
+                break;
+        }
+        return decode_csv(text, name);
+    }();
+    const double scale = millimetres_per(raw.unit.value_or(unit));
+    if (scale != 1.0)
+        for (auto& mark : raw.marks) mark.position_mm *= scale;
+    if (raw.either_frame) choose_frame(raw.marks, mesh_points_mm, name);
+    try {
+        return Landmarks(std::move(raw.marks));
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: {}", name, e.what()));
+    }
+}
+
+Landmarks read_landmarks(const std::filesystem::path& file, std::span<const Point> mesh_points_mm, LengthUnit unit) {
+    const auto format = landmark_format(file);
+    return decode_landmarks(format, read_text(file), file.string(), mesh_points_mm, unit);
+}
+
+std::string encode_landmarks(LandmarkFormat format, const Landmarks& landmarks) {
+    switch (format) {
+        case LandmarkFormat::pp:
+            return formats::encode_pp(landmarks);
+        case LandmarkFormat::fcsv:
+            return formats::encode_fcsv(landmarks);
+        case LandmarkFormat::mrk_json:
+            return formats::encode_mrk_json(landmarks);
+        case LandmarkFormat::lm3:
+            return formats::encode_lm3(landmarks);
+        case LandmarkFormat::csv:
+            break;
+    }
+    PointTable table;
+    for (const auto& mark : landmarks.all()) {
+        table.names.push_back(mark.name);
+        table.points.push_back(mark.position_mm);
+    }
+    return landmarks.empty() ? "name,x,y,z\n" : encode_points_csv(table);
+}
+
+void write_landmarks(const std::filesystem::path& file, const Landmarks& landmarks) {
+    write_atomically(file, encode_landmarks(landmark_format(file), landmarks));
+}
+
+}  // namespace mimik::geometry

@@ -1,0 +1,200 @@
+#include "geometry/mesh_io.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/formats/obj.h"
+#include "geometry/formats/ply.h"
+#include "geometry/text.h"
+
+namespace mimik::geometry {
+namespace {
+
+void scale_lengths(MeshFile& file, LengthUnit unit) {
+    if (unit == LengthUnit::millimetre) return;
+    for (auto& p : file.mesh.vertices_mm) p *= millimetres_per(unit);
+}
+
+void check_vertices(const MeshFile& file, MeshFormat format, const std::string& name) {
+    const auto& vertices = file.mesh.vertices_mm;
+    if (vertices.empty()) throw InputError(fmt::format("{}: there is no vertex in it; is it the right file?", name));
+    if (format == MeshFormat::pcd) return;  // NaN marks what was not measured
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        if (!vertices[i].allFinite())
+            throw InputError(
+                fmt::format("{}: vertex {} (counted from 0) is ({}, {}, {}), not a finite position; delete it or "
+                            "export the mesh again",
+                            name, i, vertices[i].x(), vertices[i].y(), vertices[i].z()));
+    const auto& texture = file.mesh.texture_coordinates;
+    for (std::size_t i = 0; i < texture.size(); ++i)
+        if (!texture[i].allFinite())
+            throw InputError(
+                fmt::format("{}: texture position {} (counted from 0) is ({}, {}), not finite; export the mesh "
+                            "again",
+                            name, i, texture[i].x(), texture[i].y()));
+}
+
+/// Leaves out the points that a lattice marks as not measured. Such a file has no faces.
+void drop_unmeasured(Mesh& mesh) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+        if (!mesh.vertices_mm[i].allFinite()) continue;
+        mesh.vertices_mm[kept] = mesh.vertices_mm[i];
+        if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates[kept] = mesh.texture_coordinates[i];
+        if (!mesh.colours.empty()) mesh.colours[kept] = mesh.colours[i];
+        for (auto& attribute : mesh.attributes) {
+            const auto n = static_cast<std::size_t>(attribute.components);
+            for (std::size_t c = 0; c < n; ++c) attribute.values[kept * n + c] = attribute.values[i * n + c];
+        }
+        ++kept;
+    }
+    mesh.vertices_mm.resize(kept);
+    if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates.resize(kept);
+    if (!mesh.colours.empty()) mesh.colours.resize(kept);
+    for (auto& attribute : mesh.attributes)
+        attribute.values.resize(kept * static_cast<std::size_t>(attribute.components));
+}
+
+void check_parts_fit(const Mesh& mesh, const std::string& name) {
+    const auto n = mesh.vertices_mm.size();
+    const auto refuse = [&](const std::string& what) {
+        throw InputError(fmt::format("{}: not written: {}", name, what));
+    };
+    if (!mesh.colours.empty() && mesh.colours.size() != n)
+        refuse(fmt::format("{} colours for {} vertices", mesh.colours.size(), n));
+    const auto& faces = mesh.faces;
+    if (faces.texture_corners.empty()) {
+        if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != n)
+            refuse(fmt::format("{} texture positions for {} vertices", mesh.texture_coordinates.size(), n));
+    } else if (faces.texture_corners.size() != faces.corners.size()) {
+        refuse(
+            fmt::format("{} texture corners for {} face corners", faces.texture_corners.size(), faces.corners.size()));
+    }
+    for (const auto corner : faces.corners)
+        if (corner >= n) refuse(fmt::format("a face names vertex {} of {}", corner, n));
+    for (const auto corner : faces.texture_corners)
+        if (corner >= mesh.texture_coordinates.size())
+            refuse(fmt::format("a face names texture position {} of {}", corner, mesh.texture_coordinates.size()));
+    for (const auto& attribute : mesh.attributes)
+        if (attribute.components < 1 || attribute.values.size() != n * static_cast<std::size_t>(attribute.components))
+            refuse(fmt::format("attribute {} has {} values for {} vertices of {} components", in_quotes(attribute.name),
+                               attribute.values.size(), n, attribute.components));
+    for (std::size_t i = 0; i < n; ++i)
+        if (!mesh.vertices_mm[i].allFinite()) refuse(fmt::format("vertex {} is not a finite position", i));
+}
+
+}  // namespace
+
+LengthUnit parse_length_unit(const std::string& text) {
+    if (text == "mm") return LengthUnit::millimetre;
+    if (text == "cm") return LengthUnit::centimetre;
+    if (text == "m") return LengthUnit::metre;
+    throw InputError(fmt::format("unit {} is not known; use mm, cm or m", in_quotes(text)));
+}
+
+double millimetres_per(LengthUnit unit) {
+    switch (unit) {
+        case LengthUnit::millimetre:
+            return 1.0;
+        case LengthUnit::centimetre:
+            return 10.0;
+        case LengthUnit::metre:
+            break;
+    }
+    return 1000.0;
+}
+
+MeshFormat mesh_format(const std::filesystem::path& file) {
+    const auto extension = lower_case(file.extension().string());
+    if (extension == ".ply") return MeshFormat::ply;
+    if (extension == ".obj") return MeshFormat::obj;
+    if (extension == ".stl") return MeshFormat::stl;
+    if (extension == ".pcd") return MeshFormat::pcd;
+    if (extension == ".vtp") return MeshFormat::vtp;
+    throw InputError(fmt::format("{}: extension {} is no mesh format; there are .ply, .obj, .stl, .pcd and .vtp",
+                                 file.string(), in_quotes(extension)));
+}
+
+std::string checked_texture_name(const std::string& texture, const std::string& file) {
+    std::string_view bare = texture;
+    while (bare.starts_with("./")) bare.remove_prefix(2);
+    const bool control =
+        std::any_of(bare.begin(), bare.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    if (bare.find_first_of("/\\:") != std::string_view::npos || bare == "." || bare == ".." || control ||
+        bare.size() > 255)
+        throw InputError(
+            fmt::format("{}: texture name is {}; it must be a bare file name: put the image beside the mesh and "
+                        "name it without a folder",
+                        file, in_quotes(texture)));
+    return std::string(bare);
+}
+
+MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name, LengthUnit unit) {
+    auto file = [&] {
+        if (format == MeshFormat::ply) return formats::decode_ply(bytes, name);
+        if (format == MeshFormat::obj) return formats::decode_obj(bytes, name);
+        throw InputError(fmt::format("{}: this version reads PLY and OBJ", name));
+    }();
+    scale_lengths(file, unit);
+    check_vertices(file, format, name);
+    return file;
+}
+
+Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit) {
+    const auto format = mesh_format(file);
+    auto mesh = decode_mesh(format, read_bytes(file), file.string(), unit).mesh;
+    if (format == MeshFormat::pcd) {
+        drop_unmeasured(mesh);
+        if (mesh.vertices_mm.empty())
+            throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", file.string()));
+    }
+    return mesh;
+}
+
+MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit) {
+    const auto format = mesh_format(file);
+    auto content = decode_mesh(format, read_bytes(file), file.string(), unit);
+    if (format == MeshFormat::obj && !content.texture_file.empty()) {
+        const auto material = file.parent_path() / checked_texture_name(content.texture_file, file.string());
+        // A missing material file takes the texture away, not the mesh.
+        content.texture_file =
+            std::filesystem::exists(material)
+                ? formats::texture_of_material(read_text(material, std::uintmax_t{1} << 24), material.string())
+                : std::string();
+        if (!content.texture_file.empty())
+            content.texture_file = checked_texture_name(content.texture_file, material.string());
+    } else if (!content.texture_file.empty()) {
+        content.texture_file = checked_texture_name(content.texture_file, file.string());
+    }
+    return content;
+}
+
+void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const MeshWriteOptions& options) {
+    const auto format = mesh_format(file);
+    check_parts_fit(mesh, file.string());
+    auto checked = options;
+    if (!options.texture_file.empty()) checked.texture_file = checked_texture_name(options.texture_file, file.string());
+    switch (format) {
+        case MeshFormat::ply:
+            write_atomically(file, [&](std::ostream& out) { formats::encode_ply(out, mesh, checked); });
+            return;
+        case MeshFormat::obj: {
+            std::string material;
+            if (!checked.texture_file.empty()) {
+                material = file.stem().string() + ".mtl";
+                auto material_file = file;
+                write_atomically(material_file.replace_filename(material),
+                                 formats::material_with_texture(checked.texture_file));
+            }
+            write_atomically(file, [&](std::ostream& out) { formats::encode_obj(out, mesh, material); });
+            return;
+        }
+        default:
+            break;
+    }
+}
+
+}  // namespace mimik::geometry
