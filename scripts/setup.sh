@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# setup.sh [--check]: installs the Debian 12 packages that Mimik is built and run with; does nothing where they are there.
+# --check adds what scripts/check.sh needs (clang tools, sanitizer run-times). Needs root or sudo to install.
+set -euo pipefail
+
+packages=(
+  # tools
+  build-essential cmake ninja-build pkg-config git ca-certificates
+  # geometry and numbers
+  libeigen3-dev libtbb-dev libcgal-dev libgmp-dev libnanoflann-dev libembree-dev libhwy-dev
+  # files, options, the catalogue of scans
+  libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libpng-dev zlib1g-dev libtinygltf-dev libsqlite3-dev libxxhash-dev
+  # figures: VTK, an OpenGL that needs no display, and letters; xvfb is the second way where EGL is missing
+  libvtk9-dev libgl-dev libegl-dev libx11-dev libegl1 libegl-mesa0 libgl1-mesa-dri xvfb fonts-dejavu-core
+  # tests
+  libgtest-dev libgmock-dev
+)
+if [ "${1:-}" = --check ]; then
+  packages+=(clang-14 clang-format-14 clang-tidy-14 clang-tools-14 libclang-rt-14-dev llvm-14)
+elif [ $# -gt 0 ]; then
+  echo "setup.sh: unknown option '$1'; there is --check" >&2
+  exit 2
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "setup.sh: root is needed to install: ${missing[*]}" >&2; exit 2; }
+  as_root=(sudo)
+fi
+echo "Installing ${#missing[@]} packages: ${missing[*]}"
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"

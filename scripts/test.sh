@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# test.sh: installs what is missing, builds the release, runs every test. The last line is ctest's own summary.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh
+launcher=$(command -v ccache || true)  # not needed; a second build is quicker with it
+cmake --preset release ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"}
+cmake --build --preset release
+ctest --preset release -j "$(nproc)"
