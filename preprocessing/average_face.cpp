@@ -1,0 +1,248 @@
+#include "preprocessing/average_face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/parallel.h"
+#include "geometry/surface_index.h"
+#include "geometry/thin_plate_spline.h"
+#include "preprocessing/json_values.h"
+#include "preprocessing/normalisation.h"
+
+namespace mimik::preprocessing {
+
+using geometry::Landmark;
+using geometry::Landmarks;
+using geometry::Point;
+using geometry::Transform;
+using geometry::VertexOrigin;
+
+void AverageFaceOptions::check() const {
+    if (rows < 10 || cols < 10 || rows > 4000 || cols > 4000)
+        throw InputError(fmt::format("average face of {} x {}; give 10 to 4000 each", rows, cols));
+    if (!(min_share > 0 && min_share <= 1))
+        throw InputError(fmt::format("min_share is {}; give a share above 0 and up to 1", min_share));
+}
+
+namespace {
+
+Landmarks mean_of(const std::vector<Landmarks>& sets, const std::vector<std::string>& names) {
+    std::vector<Landmark> mean;
+    for (const auto& name : names) {
+        Point sum = Point::Zero();
+        int count = 0;
+        for (const auto& set : sets)
+            if (const auto* mark = set.find(name)) {
+                sum += mark->position_mm;
+                ++count;
+            }
+        mean.push_back({name, sum / count, ""});
+    }
+    return Landmarks(std::move(mean));
+}
+
+double size_of(const Landmarks& marks) {
+    Point centre = Point::Zero();
+    for (const auto& mark : marks.all()) centre += mark.position_mm;
+    centre /= static_cast<double>(marks.size());
+    double sum = 0;
+    for (const auto& mark : marks.all()) sum += (mark.position_mm - centre).squaredNorm();
+    return std::sqrt(sum / static_cast<double>(marks.size()));
+}
+
+Landmarks mirrored(const Landmarks& marks) {
+    std::vector<Landmark> other;
+    for (const auto& mark : marks.all())
+        other.push_back({geometry::mirrored_name(mark.name),
+                         {-mark.position_mm.x(), mark.position_mm.y(), mark.position_mm.z()},
+                         ""});
+    return Landmarks(std::move(other));
+}
+
+}  // namespace
+
+Landmarks consensus_landmarks(std::span<const Landmarks> sets, int max_iterations, double* rms_mm) {
+    if (sets.size() < 2)
+        throw InputError(fmt::format("{} neutral face(s) with landmarks; an average face needs two or more", sets.size()));
+    std::map<std::string, std::size_t> seen;
+    for (const auto& set : sets)
+        for (const auto& mark : set.all()) ++seen[mark.name];
+    std::vector<std::string> names;
+    for (const auto name : geometry::standard_landmark_names())
+        if (2 * seen[std::string(name)] >= sets.size() && seen[std::string(name)] > 0) names.emplace_back(name);
+    if (names.size() < 4)
+        throw InputError(fmt::format("only {} standard landmarks stand in at least half of the neutral faces; four are "
+                                     "needed (docs/formats.md lists the names)",
+                                     names.size()));
+
+    // Orientation and size to end with: those of the input on average. Each set is centred first.
+    std::vector<Landmarks> aligned;
+    double mean_size = 0;
+    for (const auto& set : sets) {
+        Point centre = Point::Zero();
+        for (const auto& mark : set.all()) centre += mark.position_mm;
+        aligned.push_back(geometry::transformed(set, Transform(Eigen::Translation3d(-centre / static_cast<double>(set.size())))));
+        mean_size += size_of(set) / static_cast<double>(sets.size());
+    }
+    const Landmarks upright = mean_of(aligned, names);
+
+    Landmarks consensus = upright;
+    for (int iteration = 0; iteration < max_iterations; ++iteration) {
+        for (auto& set : aligned) set = geometry::transformed(set, similarity_normalisation(set, consensus));
+        Landmarks next = mean_of(aligned, names);
+        next = geometry::transformed(next, Transform(Eigen::Scaling(mean_size / size_of(next))));  // else it shrinks
+        double change = 0;
+        for (const auto& name : names)
+            change = std::max(change, (next.position_mm(name) - consensus.position_mm(name)).norm());
+        consensus = std::move(next);
+        if (change < 1e-9) break;
+    }
+    if (rms_mm) {
+        double sum = 0;
+        std::size_t count = 0;
+        for (const auto& set : aligned)
+            for (const auto& pair : geometry::pair_by_name(set, consensus).pairs) {
+                sum += (pair.source_mm - pair.target_mm).squaredNorm();
+                ++count;
+            }
+        *rms_mm = std::sqrt(sum / static_cast<double>(count));
+    }
+    consensus = geometry::transformed(consensus, rigid_by_landmarks(consensus, upright));
+
+    // Frontal: turn until the mirror image lies on the face, then make it exactly symmetric.
+    for (int k = 0; k < 20; ++k) {
+        const auto mirror = mirrored(consensus);
+        const auto half_way = mean_of({consensus, mirror}, names);
+        consensus = geometry::transformed(consensus, rigid_by_landmarks(consensus, half_way));
+    }
+    consensus = mean_of({consensus, mirrored(consensus)}, names);
+    return geometry::transformed(consensus, Transform(Eigen::Translation3d(-consensus.position_mm("nose_tip"))));
+}
+
+AverageFace build_average_face(std::size_t count, const std::function<Face(std::size_t)>& load,
+                               const Landmarks& consensus, const AverageFaceOptions& options) {
+    options.check();
+    AverageFace average;
+    average.landmarks = consensus;
+    auto& grid = average.grid;
+    grid.rows = options.rows;
+    grid.cols = options.cols;
+
+    const Point left = consensus.position_mm("eye_outer_left"), right = consensus.position_mm("eye_outer_right");
+    const double eyes_mm = (left - right).norm();
+    const double x_max = options.half_width * eyes_mm;
+    const double y_max = 0.5 * (left.y() + right.y()) + options.above_eyes * eyes_mm;
+    const double y_min = consensus.position_mm("chin").y() - options.below_chin * eyes_mm;
+    const auto cells = static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.cols);
+    for (int row = 0; row < grid.rows; ++row)
+        for (int col = 0; col < grid.cols; ++col)
+            grid.vertices_mm.emplace_back(-x_max + 2 * x_max * col / (grid.cols - 1),
+                                          y_min + (y_max - y_min) * row / (grid.rows - 1),
+                                          std::numeric_limits<double>::quiet_NaN());
+
+    // Faces in batches: memory stays bounded, and depths are added in the order of the subjects.
+    std::vector<double> depth_sum(cells, 0.0);
+    std::vector<int> measured(cells, 0);
+    constexpr std::size_t batch = 16;
+    for (std::size_t begin = 0; begin < count; begin += batch) {
+        const std::size_t end = std::min(count, begin + batch);
+        std::vector<std::vector<double>> depths(end - begin);
+        std::vector<std::string> names(end - begin);
+        geometry::parallel_for(end - begin, 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k) {
+                const Face face = load(begin + k);
+                names[k] = face.id.name();
+                std::vector<Point> from, to;
+                for (const auto& pair : geometry::pair_by_name(face.landmarks, consensus).pairs) {
+                    from.push_back(pair.source_mm);
+                    to.push_back(pair.target_mm);
+                }
+                const auto consensus_from_scan = geometry::ThinPlateSpline::fit(from, to);
+                std::vector<Point> warped(face.grid.size(), Point::Zero());
+                for (std::size_t v = 0; v < warped.size(); ++v)
+                    if (face.grid.inside(v)) warped[v] = face.grid.vertices_mm[v];
+                consensus_from_scan.apply(warped, warped);
+                const geometry::SurfaceIndex surface(
+                    warped, geometry::triangles(face.grid, geometry::BridgedVertices::leave_out));
+                depths[k].assign(cells, std::numeric_limits<double>::quiet_NaN());
+                for (std::size_t v = 0; v < cells; ++v) {
+                    geometry::SurfacePoint hit;
+                    const Point in_front(grid.vertices_mm[v].x(), grid.vertices_mm[v].y(), 500.0);
+                    if (surface.first_hit(in_front, -geometry::Vector::UnitZ(), hit)) depths[k][v] = hit.position_mm.z();
+                }
+            }
+        });
+        for (std::size_t k = 0; k < depths.size(); ++k) {
+            average.scans.push_back(names[k]);
+            for (std::size_t v = 0; v < cells; ++v)
+                if (std::isfinite(depths[k][v])) {
+                    depth_sum[v] += depths[k][v];
+                    ++measured[v];
+                }
+        }
+    }
+
+    const double needed = options.min_share * static_cast<double>(count);
+    grid.origin.assign(cells, VertexOrigin::outside);
+    for (std::size_t v = 0; v < cells; ++v)
+        if (measured[v] > 0 && measured[v] >= needed) {
+            grid.vertices_mm[v].z() = depth_sum[v] / measured[v];
+            grid.origin[v] = VertexOrigin::measured;
+        }
+
+    // Nose tip of the surface itself at the origin: straight behind the consensus' own.
+    geometry::SurfacePoint nose;
+    const geometry::SurfaceIndex surface(grid.vertices_mm, geometry::triangles(grid));
+    const Point tip = consensus.position_mm("nose_tip");
+    if (surface.first_hit({tip.x(), tip.y(), 500.0}, -geometry::Vector::UnitZ(), nose)) {
+        const Transform shift(Eigen::Translation3d(-nose.position_mm));
+        for (auto& p : grid.vertices_mm) p = shift * p;
+        // Average landmarks lie on the average surface.
+        std::vector<Landmark> marks;
+        for (const auto& mark : consensus.all()) marks.push_back({mark.name, shift * mark.position_mm, ""});
+        average.landmarks = Landmarks(std::move(marks));
+    }
+    return average;
+}
+
+void write_average_face(const std::filesystem::path& stem, const AverageFace& average, const std::string& fingerprint) {
+    auto mesh_file = stem, json_file = stem;
+    mesh_file += ".ply";
+    json_file += ".json";
+    write_grid(mesh_file, average.grid);
+    const nlohmann::json document = {{"schema", 1},
+                                     {"kind", "mimik average face"},
+                                     {"rows", average.grid.rows},
+                                     {"cols", average.grid.cols},
+                                     {"units", "mm"},
+                                     {"frame", "average: nose tip at the origin, +x subject's left, +y up, +z out of the face"},
+                                     {"landmarks", to_json(average.landmarks)},
+                                     {"scans", average.scans},
+                                     {"consensus_rms_mm", average.consensus_rms_mm},
+                                     {"fingerprint", fingerprint}};
+    geometry::write_atomically(json_file, document.dump(1) + "\n");
+}
+
+AverageFace read_average_face(const std::filesystem::path& stem, std::string* fingerprint) {
+    auto mesh_file = stem, json_file = stem;
+    mesh_file += ".ply";
+    json_file += ".json";
+    return from_json_file<AverageFace>(json_file, [&](const nlohmann::json& document) {
+        AverageFace average;
+        average.landmarks = landmarks_from_json(document.at("landmarks"));
+        average.scans = document.at("scans").get<std::vector<std::string>>();
+        average.consensus_rms_mm = document.at("consensus_rms_mm").get<double>();
+        if (fingerprint) *fingerprint = document.at("fingerprint").get<std::string>();
+        average.grid = read_grid(mesh_file, document.at("rows").get<int>(), document.at("cols").get<int>());
+        return average;
+    });
+}
+
+}  // namespace mimik::preprocessing

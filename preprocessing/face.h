@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "database/scan_id.h"
+#include "geometry/landmarks.h"
+#include "geometry/quad_grid.h"
+
+namespace mimik::preprocessing {
+
+/// One scan after preprocessing: cleaned, resampled, and tied to the average face by transforms that are kept beside it,
+/// so that every later result can be had in the scanner's own millimetres.
+struct Face {
+    database::ScanId id;
+    std::string sex;                        ///< "m", "f" or empty
+    geometry::QuadGrid grid;                ///< scanner frame
+    geometry::Landmarks landmarks;          ///< as marked, our names, scanner frame
+    geometry::Landmarks snapped_landmarks;  ///< moved to the nearest grid vertex (thesis 5.4)
+    std::filesystem::path texture_file;     ///< of the scan; empty: none
+
+    /// Rigid: brings the scan onto the subject's first neutral (identity for that one itself).
+    geometry::Transform neutral_from_scan = geometry::Transform::Identity();
+    /// Similarity fitted on the subject's first neutral alone, after neutral_from_scan: the expression is kept.
+    geometry::Transform average_from_scan = geometry::Transform::Identity();
+    /// Eqs 5.1-5.4 of the thesis, fitted on this scan's own four landmarks: part of the expression is normalised away.
+    geometry::Transform average_from_scan_affine = geometry::Transform::Identity();
+
+    double alignment_rms_mm = 0.0;  ///< of neutral_from_scan on the stable region; 0 for the first neutral
+    std::vector<std::string> remarks;
+};
+
+/// A grid as PLY: double precision, property `origin` (0 outside, 1 measured, 2 bridged), quads of the inside.
+void write_grid(const std::filesystem::path& file, const geometry::QuadGrid& grid);
+[[nodiscard]] geometry::QuadGrid read_grid(const std::filesystem::path& file, int rows, int cols);
+
+/// `<stem>.ply` (grid, double precision, opens in any viewer) and `<stem>.json` (everything else, schema 1).
+void write_face(const std::filesystem::path& stem, const Face& face);
+/// @throws InputError naming the file and what is wrong.
+[[nodiscard]] Face read_face(const std::filesystem::path& stem);
+
+}  // namespace mimik::preprocessing

@@ -1,0 +1,103 @@
+#include "preprocessing/rigid_alignment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+
+namespace mimik::preprocessing {
+
+using geometry::Point;
+using geometry::Transform;
+using geometry::Vector;
+
+void RigidAlignmentOptions::check() const {
+    if (max_iterations < 1) throw InputError(fmt::format("max_iterations is {}; give 1 or more", max_iterations));
+    if (!(trim > 0 && trim <= 1)) throw InputError(fmt::format("trim is {}; give a share above 0 and up to 1", trim));
+    if (!(max_distance_mm > 0))
+        throw InputError(fmt::format("max_distance_mm is {}; give more than 0", max_distance_mm));
+}
+
+namespace {
+
+struct Pair {
+    Point moved_mm;
+    Point target_mm;
+    Vector normal;
+    double distance_mm;
+};
+
+}  // namespace
+
+RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::SurfaceIndex& target,
+                             const Transform& start, const RigidAlignmentOptions& options) {
+    options.check();
+    const auto vertices = target.vertices_mm();
+    const auto triangles = target.triangles();
+    RigidAlignment result;
+    result.target_from_source = start;
+
+    std::vector<Point> moved(source_mm.size());
+    std::vector<Pair> pairs;
+    while (result.iterations < options.max_iterations && !result.converged) {
+        ++result.iterations;
+        std::transform(source_mm.begin(), source_mm.end(), moved.begin(),
+                       [&](const Point& p) -> Point { return result.target_from_source * p; });
+        const auto hits = target.closest(moved);
+        pairs.clear();
+        result.border_hits = 0;
+        for (std::size_t k = 0; k < hits.size(); ++k) {
+            if (hits[k].distance_mm > options.max_distance_mm) continue;
+            if (target.on_border(hits[k])) {
+                ++result.border_hits;
+                continue;
+            }
+            const auto& t = triangles[hits[k].triangle];
+            const Vector normal = (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]).normalized();
+            pairs.push_back({moved[k], hits[k].position_mm, normal, hits[k].distance_mm});
+        }
+        const auto kept = static_cast<std::size_t>(std::ceil(options.trim * static_cast<double>(pairs.size())));
+        if (kept < 30)
+            throw NumericalError(fmt::format("rigid alignment: only {} of {} points found a partner on the other scan; "
+                                             "30 are needed (is this the same face, in the same unit?)",
+                                             kept, source_mm.size()));
+        std::stable_sort(pairs.begin(), pairs.end(),
+                         [](const Pair& a, const Pair& b) { return a.distance_mm < b.distance_mm; });
+        pairs.resize(kept);
+
+        // Small rotation w and shift t about the centroid c: minimise sum (n . (p + w x (p - c) + t - q))^2.
+        Point centre = Point::Zero();
+        for (const auto& pair : pairs) centre += pair.moved_mm;
+        centre /= static_cast<double>(kept);
+        Eigen::Matrix<double, 6, 6> normal_matrix = Eigen::Matrix<double, 6, 6>::Zero();
+        Eigen::Matrix<double, 6, 1> right_side = Eigen::Matrix<double, 6, 1>::Zero();
+        double squared = 0;
+        for (const auto& pair : pairs) {
+            Eigen::Matrix<double, 6, 1> row;
+            row << (pair.moved_mm - centre).cross(pair.normal), pair.normal;
+            const double residual = pair.normal.dot(pair.moved_mm - pair.target_mm);
+            normal_matrix += row * row.transpose();
+            right_side -= residual * row;
+            squared += residual * residual;
+        }
+        result.rms_mm = std::sqrt(squared / static_cast<double>(kept));
+        result.pairs_used = kept;
+        const Eigen::Matrix<double, 6, 1> step = normal_matrix.ldlt().solve(right_side);
+        if (!step.allFinite()) throw NumericalError("rigid alignment: the points determine no rotation");
+        const Vector rotation = step.head<3>();
+        const double angle = rotation.norm();
+        const Eigen::AngleAxisd turn(angle, angle > 0 ? Vector(rotation / angle) : Vector(Vector::UnitX()));
+        result.target_from_source = Eigen::Translation3d(centre + step.tail<3>()) * turn *
+                                    Eigen::Translation3d(-centre) * result.target_from_source;
+        result.converged = angle * 180.0 / std::numbers::pi < options.stop_rotation_deg &&
+                           step.tail<3>().norm() < options.stop_shift_mm;
+    }
+    return result;
+}
+
+}  // namespace mimik::preprocessing

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+
+#include "geometry/surface_index.h"
+#include "geometry/types.h"
+
+namespace mimik::preprocessing {
+
+struct RigidAlignmentOptions {
+    int max_iterations = 60;
+    double trim = 0.7;                ///< share of the points, closest first, that take part in each step
+    double max_distance_mm = 15.0;    ///< pairs farther apart than this take no part at all
+    double stop_rotation_deg = 1e-4;  ///< a step smaller than both of these ends the iteration
+    double stop_shift_mm = 1e-4;
+    void check() const;
+};
+
+struct RigidAlignment {
+    geometry::Transform target_from_source = geometry::Transform::Identity();
+    double rms_mm = 0.0;  ///< point to plane, over the pairs of the last step
+    std::size_t pairs_used = 0;
+    std::size_t border_hits = 0;  ///< closest point on the target's border: left out
+    int iterations = 0;
+    bool converged = false;
+};
+
+/// Trimmed point-to-plane ICP: rotation and translation that bring `source` points onto the target surface.
+/// (Chen and Medioni 1992 for the distance; Chetverikov et al. 2002 for the trimming.) The normals are those of the
+/// target's triangles. Give only points of a region that does not move with the expression.
+/// @throws InputError for bad options; NumericalError if fewer than 30 pairs remain.
+[[nodiscard]] RigidAlignment align_rigidly(std::span<const geometry::Point> source_mm,
+                                           const geometry::SurfaceIndex& target,
+                                           const geometry::Transform& start = geometry::Transform::Identity(),
+                                           const RigidAlignmentOptions& options = {});
+
+}  // namespace mimik::preprocessing

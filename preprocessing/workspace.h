@@ -1,0 +1,93 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "database/scan_database.h"
+#include "preprocessing/average_face.h"
+#include "preprocessing/cleaning.h"
+#include "preprocessing/face.h"
+#include "preprocessing/gridding.h"
+#include "preprocessing/rigid_alignment.h"
+
+namespace mimik::preprocessing {
+
+/// Which vertices of a neutral face's grid the expression of `scan` leaves where they are (1) or may move (0). The rooms
+/// that know about Action Units supply it; without one the nose bridge, inner eye corners and temples are taken.
+using StableRegion = std::function<std::vector<char>(const database::ScanId& scan, const Face& neutral)>;
+[[nodiscard]] std::vector<char> stable_on_every_face(const Face& neutral);
+
+struct PreprocessOptions {
+    CleaningOptions cleaning;
+    GriddingOptions gridding;
+    AverageFaceOptions average;
+    RigidAlignmentOptions alignment;
+    std::vector<std::string> subjects;  ///< empty: all
+    std::vector<std::string> codes;     ///< expression codes to take beside the neutrals, e.g. "12", "HAPPY"; empty: all
+                                        ///< of groups N, E, UFAU, LFAU, CAU (poses and occlusions are left out)
+};
+
+/// One scan to a face in the scanner's frame: cleaned, gridded, landmarks snapped; transforms still identity.
+[[nodiscard]] Face preprocess_scan(const database::LoadedScan& loaded, const PreprocessOptions& options,
+                                   CleaningReport* cleaning = nullptr, GriddingReport* gridding = nullptr);
+
+/// Fills face.neutral_from_scan by trimmed ICP of the neutral's stable vertices onto the scan.
+void align_to_neutral(Face& face, const Face& neutral, const std::vector<char>& stable,
+                      const RigidAlignmentOptions& options = {});
+
+struct ScanFailure {
+    std::string scan;
+    std::string reason;
+};
+
+struct PreprocessReport {
+    std::size_t preprocessed = 0;  ///< written in this run
+    std::size_t up_to_date = 0;    ///< found finished from an earlier run
+    std::vector<ScanFailure> failures;
+    std::vector<std::string> left_out;  ///< subjects without a usable neutral
+};
+
+/// A folder of preprocessed faces:
+///   workspace.json               database, options, list of faces, hidden subjects (schema 1)
+///   average/average_face.{ply,json}
+///   faces/bs000/bs000_N_N_0.{ply,json}
+class Workspace {
+public:
+    /// @throws InputError if the folder is no finished workspace.
+    explicit Workspace(std::filesystem::path root);
+
+    [[nodiscard]] const std::filesystem::path& root() const { return root_; }
+    [[nodiscard]] const std::filesystem::path& database_root() const { return database_root_; }
+    [[nodiscard]] const AverageFace& average() const { return average_; }
+    [[nodiscard]] const std::vector<database::ScanId>& scans() const { return scans_; }
+    [[nodiscard]] std::vector<std::string> subjects() const;
+    [[nodiscard]] bool hidden(const std::string& subject) const;
+    [[nodiscard]] bool has(const database::ScanId& id) const;
+    /// First neutral of a subject. @throws InputError naming the subjects there are.
+    [[nodiscard]] database::ScanId neutral(const std::string& subject) const;
+    /// First scan of an AU (or emotion) of a subject: code without regard to case; empty if there is none.
+    [[nodiscard]] std::optional<database::ScanId> expression(const std::string& subject, const std::string& code) const;
+    [[nodiscard]] Face face(const database::ScanId& id) const;  ///< read from disk
+
+private:
+    std::filesystem::path root_, database_root_;
+    AverageFace average_;
+    std::vector<database::ScanId> scans_;
+    std::vector<std::string> hidden_subjects_;
+};
+
+/// Preprocesses a whole database, in parallel over subjects, one scan in memory per thread. What an earlier run finished
+/// with the same options on the same file is not done again. A scan that fails is reported and the rest goes on.
+/// @param progress  called once per scan, from any thread; may be empty.
+PreprocessReport preprocess_database(const database::ScanDatabase& database, const std::filesystem::path& root,
+                                     const PreprocessOptions& options = {}, const StableRegion& stable_region = {},
+                                     const std::function<void(const std::string& scan)>& progress = {});
+
+/// The scans that `options` select, neutrals first within each subject.
+[[nodiscard]] std::vector<const database::ScanEntry*> selected_scans(const database::ScanDatabase& database,
+                                                                     const PreprocessOptions& options);
+
+}  // namespace mimik::preprocessing
