@@ -1,0 +1,68 @@
+#include "preprocessing/average_face.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "preprocessing/workspace.h"
+#include "tests/support/analytic_face.h"
+
+namespace mimik::preprocessing {
+namespace {
+
+using geometry::Landmarks;
+using geometry::Point;
+using geometry::Transform;
+
+TEST(ConsensusLandmarks, of_copies_that_were_turned_and_shifted_is_the_face_itself) {
+    const auto marks = test::AnalyticFace{}.landmarks();
+    std::vector<Landmarks> sets;
+    for (const double angle : {-0.1, 0.0, 0.1})  // turns that cancel, so the mean orientation is frontal
+        sets.push_back(geometry::transformed(
+            marks, Transform(Eigen::Translation3d(10 * angle, 5, 100) * Eigen::AngleAxisd(angle, Point::UnitY()))));
+    double rms_mm = 1;
+    const auto consensus = consensus_landmarks(sets, 50, &rms_mm);
+    EXPECT_LT(rms_mm, 1e-8);
+    const Point nose = marks.position_mm("nose_tip");
+    for (const auto& mark : marks.all())
+        EXPECT_LT((consensus.position_mm(mark.name) - (mark.position_mm - nose)).norm(), 1e-6) << mark.name;
+}
+
+TEST(ConsensusLandmarks, is_mirror_symmetric_with_the_nose_tip_at_the_origin) {
+    std::vector<Landmarks> sets;
+    for (const double scale : {0.9, 1.0, 1.15}) sets.push_back(test::AnalyticFace{scale, 6 * scale}.landmarks());
+    const auto consensus = consensus_landmarks(sets);
+    EXPECT_LT(consensus.position_mm("nose_tip").norm(), 1e-12);
+    const Point left = consensus.position_mm("mouth_corner_left"), right = consensus.position_mm("mouth_corner_right");
+    EXPECT_NEAR(left.x(), -right.x(), 1e-9);
+    EXPECT_NEAR(left.y(), right.y(), 1e-9);
+    EXPECT_GT(left.x(), 0);
+}
+
+TEST(ConsensusLandmarks, one_face_is_no_average) {
+    const std::vector<Landmarks> one = {test::AnalyticFace{}.landmarks()};
+    EXPECT_THROW((void)consensus_landmarks(one), InputError);
+}
+
+TEST(AverageFace, of_equal_faces_is_that_face_with_its_nose_tip_at_the_origin) {
+    const test::AnalyticFace face;
+    database::LoadedScan loaded;
+    loaded.scan = face.scan(1.0);
+    loaded.landmarks = face.landmarks();
+    loaded.entry.id = {"bs000", "N", "N", 0};
+    const Face gridded = preprocess_scan(loaded, {});
+    const std::vector<Landmarks> sets = {gridded.landmarks, gridded.landmarks};
+    const auto average = build_average_face(2, [&](std::size_t) { return gridded; }, consensus_landmarks(sets));
+    std::size_t compared = 0;
+    for (std::size_t v = 0; v < average.grid.size(); ++v) {
+        const Point& p = average.grid.vertices_mm[v];
+        if (!average.grid.inside(v) || std::abs(p.x()) > 50 || p.y() > 70 || p.y() < -60) continue;
+        ++compared;
+        // Depth of the closed form less that of the tip. Two resamplings of a 1 mm lattice leave the curvature of the nose ridge,
+        // h^2 / 8 * z'' = 1 / 8 * 22 / 81 = 0.03 mm each, and of the fold between the lips three times that.
+        EXPECT_NEAR(p.z(), test::AnalyticFace::depth(p.x(), p.y()) - test::AnalyticFace::depth(0, 0), 0.2) << p.transpose();
+    }
+    EXPECT_GT(compared, 5000U);
+}
+
+}  // namespace
+}  // namespace mimik::preprocessing

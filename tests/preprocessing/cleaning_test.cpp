@@ -1,0 +1,71 @@
+#include "preprocessing/cleaning.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "tests/support/analytic_face.h"
+
+namespace mimik::preprocessing {
+namespace {
+
+using geometry::Point;
+using geometry::RangeScan;
+
+std::size_t valid_points(const RangeScan& scan) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < scan.points_mm.size(); ++i) count += scan.valid(i) ? 1 : 0;
+    return count;
+}
+
+TEST(Cleaning, leaves_a_clean_face_as_it_is) {
+    const auto scan = test::AnalyticFace{}.scan();
+    CleaningReport report;
+    const auto cleaned = clean(scan, {}, &report);
+    EXPECT_EQ(valid_points(cleaned), valid_points(scan));
+    EXPECT_EQ(report.spikes + report.stray_points, 0U);
+}
+
+TEST(Cleaning, takes_out_exactly_the_spikes_that_were_put_in) {
+    auto scan = test::AnalyticFace{}.scan();
+    const auto at = [&](int row, int col) { return static_cast<std::size_t>(row * scan.cols + col); };
+    const std::size_t spikes[] = {at(60, 60), at(60, 61), at(100, 80), at(140, 75)};
+    for (const auto i : spikes) scan.points_mm[i].z() += 12;
+    CleaningReport report;
+    const auto cleaned = clean(scan, {}, &report);
+    EXPECT_EQ(report.spikes, 4U);
+    for (const auto i : spikes) EXPECT_FALSE(cleaned.valid(i));
+}
+
+TEST(Cleaning, takes_out_a_stray_tuft_and_a_wall_behind_the_head) {
+    auto scan = test::AnalyticFace{}.scan();
+    const auto face_points = valid_points(scan);
+    for (int row = 0; row < 8; ++row)
+        for (int col = 0; col < 8; ++col)
+            scan.points_mm[static_cast<std::size_t>(row * scan.cols + col)] = Point(-75 + col, -85 + row, 20);
+    for (int row = 0; row < scan.rows; ++row)
+        for (int col = 0; col < scan.cols; ++col) {
+            auto& p = scan.points_mm[static_cast<std::size_t>(row * scan.cols + col)];
+            if (!p.allFinite()) p = Point(-75 + col, -85 + row, -600);
+        }
+    CleaningReport report;
+    const auto cleaned = clean(scan, {}, &report);
+    EXPECT_EQ(valid_points(cleaned), face_points);
+    EXPECT_GE(report.stray_parts, 2U);
+}
+
+TEST(Cleaning, a_cloud_loses_the_same_spikes_as_the_lattice) {
+    auto scan = test::AnalyticFace{}.scan();
+    scan.points_mm[static_cast<std::size_t>(60 * scan.cols + 60)].z() += 15;
+    RangeScan cloud;
+    for (std::size_t i = 0; i < scan.points_mm.size(); ++i)
+        if (scan.valid(i)) cloud.points_mm.push_back(scan.points_mm[i]);
+    EXPECT_EQ(clean(cloud).points_mm.size(), cloud.points_mm.size() - 1);
+}
+
+TEST(Cleaning, a_scan_without_a_point_is_refused) {
+    RangeScan scan;
+    EXPECT_THROW((void)clean(scan), InputError);
+}
+
+}  // namespace
+}  // namespace mimik::preprocessing
