@@ -476,7 +476,7 @@ bool SurfaceIndex::first_hit(const Point& origin_mm, const Vector& direction, Su
                 leave = std::min(leave, std::max(p, q));
             }
             // The slack covers the rounding of the slab distances; boxes of unused children are never entered.
-            if (enter > leave + 1e-12 * std::abs(enter) || node.low[0][k] > node.high[0][k]) continue;
+            if (enter > leave + 1e-12 * std::abs(leave) || node.low[0][k] > node.high[0][k]) continue;
             if (node.leaf)
                 test(node.child[k]);
             else

@@ -70,7 +70,8 @@ Landmarks mirrored(const Landmarks& marks) {
 
 Landmarks consensus_landmarks(std::span<const Landmarks> sets, int max_iterations, double* rms_mm) {
     if (sets.size() < 2)
-        throw InputError(fmt::format("{} neutral face(s) with landmarks; an average face needs two or more", sets.size()));
+        throw InputError(
+            fmt::format("{} neutral face(s) with landmarks; an average face needs two or more", sets.size()));
     std::map<std::string, std::size_t> seen;
     for (const auto& set : sets)
         for (const auto& mark : set.all()) ++seen[mark.name];
@@ -78,9 +79,10 @@ Landmarks consensus_landmarks(std::span<const Landmarks> sets, int max_iteration
     for (const auto name : geometry::standard_landmark_names())
         if (2 * seen[std::string(name)] >= sets.size() && seen[std::string(name)] > 0) names.emplace_back(name);
     if (names.size() < 4)
-        throw InputError(fmt::format("only {} standard landmarks stand in at least half of the neutral faces; four are "
-                                     "needed (docs/formats.md lists the names)",
-                                     names.size()));
+        throw InputError(
+            fmt::format("only {} standard landmarks stand in at least half of the neutral faces; four are "
+                        "needed (docs/formats.md lists the names)",
+                        names.size()));
 
     // Orientation and size to end with: those of the input on average. Each set is centred first.
     std::vector<Landmarks> aligned;
@@ -88,7 +90,8 @@ Landmarks consensus_landmarks(std::span<const Landmarks> sets, int max_iteration
     for (const auto& set : sets) {
         Point centre = Point::Zero();
         for (const auto& mark : set.all()) centre += mark.position_mm;
-        aligned.push_back(geometry::transformed(set, Transform(Eigen::Translation3d(-centre / static_cast<double>(set.size())))));
+        aligned.push_back(
+            geometry::transformed(set, Transform(Eigen::Translation3d(-centre / static_cast<double>(set.size())))));
         mean_size += size_of(set) / static_cast<double>(sets.size());
     }
     const Landmarks upright = mean_of(aligned, names);
@@ -175,7 +178,8 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
                 for (std::size_t v = 0; v < cells; ++v) {
                     geometry::SurfacePoint hit;
                     const Point in_front(grid.vertices_mm[v].x(), grid.vertices_mm[v].y(), 500.0);
-                    if (surface.first_hit(in_front, -geometry::Vector::UnitZ(), hit)) depths[k][v] = hit.position_mm.z();
+                    if (surface.first_hit(in_front, -geometry::Vector::UnitZ(), hit))
+                        depths[k][v] = hit.position_mm.z();
                 }
             }
         });
@@ -217,16 +221,17 @@ void write_average_face(const std::filesystem::path& stem, const AverageFace& av
     mesh_file += ".ply";
     json_file += ".json";
     write_grid(mesh_file, average.grid);
-    const nlohmann::json document = {{"schema", 1},
-                                     {"kind", "mimik average face"},
-                                     {"rows", average.grid.rows},
-                                     {"cols", average.grid.cols},
-                                     {"units", "mm"},
-                                     {"frame", "average: nose tip at the origin, +x subject's left, +y up, +z out of the face"},
-                                     {"landmarks", to_json(average.landmarks)},
-                                     {"scans", average.scans},
-                                     {"consensus_rms_mm", average.consensus_rms_mm},
-                                     {"fingerprint", fingerprint}};
+    const nlohmann::json document = {
+        {"schema", 1},
+        {"kind", "mimik average face"},
+        {"rows", average.grid.rows},
+        {"cols", average.grid.cols},
+        {"units", "mm"},
+        {"frame", "average: nose tip at the origin, +x subject's left, +y up, +z out of the face"},
+        {"landmarks", to_json(average.landmarks)},
+        {"scans", average.scans},
+        {"consensus_rms_mm", average.consensus_rms_mm},
+        {"fingerprint", fingerprint}};
     geometry::write_atomically(json_file, document.dump(1) + "\n");
 }
 

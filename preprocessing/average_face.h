@@ -13,26 +13,26 @@
 namespace mimik::preprocessing {
 
 struct AverageFaceOptions {
-    int rows = 150, cols = 150;     ///< as the scans (thesis 5.4)
-    double half_width = 0.82;       ///< crop, in outer-eye distances: cheeks to the ears, without them
-    double above_eyes = 0.85;       ///< to the hairline
-    double below_chin = 0.18;       ///< the chin's underside turns away from the scanner
-    double min_share = 0.5;         ///< a cell counts where at least this share of the faces was measured
-    int max_iterations = 50;        ///< of the Procrustes consensus
+    int rows = 150, cols = 150;  ///< as the scans (thesis 5.4)
+    double half_width = 0.82;    ///< crop, in outer-eye distances: cheeks to the ears, without them
+    double above_eyes = 0.85;    ///< to the hairline
+    double below_chin = 0.18;    ///< the chin's underside turns away from the scanner
+    double min_share = 0.5;      ///< a cell counts where at least this share of the faces was measured
+    int max_iterations = 50;     ///< of the Procrustes consensus
     void check() const;
 };
 
 /// The average face model: nose tip at the origin, frontal, mm.
 struct AverageFace {
     geometry::QuadGrid grid;
-    geometry::Landmarks landmarks;  ///< the consensus
-    std::vector<std::string> scans; ///< the neutrals that went in
-    double consensus_rms_mm = 0.0;  ///< of the subjects' landmarks about the consensus, after similarity alignment
+    geometry::Landmarks landmarks;   ///< the consensus
+    std::vector<std::string> scans;  ///< the neutrals that went in
+    double consensus_rms_mm = 0.0;   ///< of the subjects' landmarks about the consensus, after similarity alignment
 };
 
-/// Consensus of landmark sets: generalised Procrustes (Gower 1975), rigid with mean size kept, then made frontal: the mean
-/// orientation of the input, mirror-symmetric about x = 0, nose tip at the origin. Landmarks that fewer than half of the
-/// sets have are left out. @throws InputError if fewer than 2 sets, or fewer than 4 landmarks, remain.
+/// Consensus of landmark sets: generalised Procrustes (Gower 1975), rigid with mean size kept, then made frontal: the
+/// mean orientation of the input, mirror-symmetric about x = 0, nose tip at the origin. Landmarks that fewer than half
+/// of the sets have are left out. @throws InputError if fewer than 2 sets, or fewer than 4 landmarks, remain.
 [[nodiscard]] geometry::Landmarks consensus_landmarks(std::span<const geometry::Landmarks> sets,
                                                       int max_iterations = 50, double* rms_mm = nullptr);
 

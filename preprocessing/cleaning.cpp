@@ -39,10 +39,12 @@ Neighbours lattice_neighbours(const RangeScan& scan, int radius) {
     neighbours.first.push_back(0);
     for (int row = 0; row < scan.rows; ++row)
         for (int col = 0; col < scan.cols; ++col) {
-            if (scan.valid(static_cast<std::size_t>(row) * static_cast<std::size_t>(scan.cols) + static_cast<std::size_t>(col)))
+            if (scan.valid(static_cast<std::size_t>(row) * static_cast<std::size_t>(scan.cols) +
+                           static_cast<std::size_t>(col)))
                 for (int r = std::max(0, row - radius); r <= std::min(scan.rows - 1, row + radius); ++r)
                     for (int c = std::max(0, col - radius); c <= std::min(scan.cols - 1, col + radius); ++c) {
-                        const auto other = static_cast<std::size_t>(r) * static_cast<std::size_t>(scan.cols) + static_cast<std::size_t>(c);
+                        const auto other = static_cast<std::size_t>(r) * static_cast<std::size_t>(scan.cols) +
+                                           static_cast<std::size_t>(c);
                         if ((r != row || c != col) && scan.valid(other))
                             neighbours.index.push_back(static_cast<std::uint32_t>(other));
                     }
@@ -68,7 +70,8 @@ Neighbours cloud_neighbours(const RangeScan& scan) {
     }
     double radius_mm = 1.0;
     if (!spacing.empty()) {
-        std::nth_element(spacing.begin(), spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2), spacing.end());
+        std::nth_element(spacing.begin(), spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2),
+                         spacing.end());
         radius_mm = std::max(1e-9, 3.0 * spacing[spacing.size() / 2]);
     }
     Neighbours neighbours;
@@ -86,7 +89,8 @@ Neighbours cloud_neighbours(const RangeScan& scan) {
 }
 
 /// Marks spikes in `dropped`; a point with fewer than three neighbours cannot be judged and stays.
-std::size_t drop_spikes(const RangeScan& scan, const Neighbours& neighbours, double spike_mm, std::vector<char>& dropped) {
+std::size_t drop_spikes(const RangeScan& scan, const Neighbours& neighbours, double spike_mm,
+                        std::vector<char>& dropped) {
     // Judged on the data as they came in, so the answer does not depend on the order of the points.
     std::vector<char> spike(dropped.size(), 0);
     std::vector<double> depths;
@@ -143,7 +147,8 @@ RangeScan clean(const RangeScan& scan, const CleaningOptions& options, CleaningR
         for (std::size_t k = neighbours.first[i]; k < neighbours.first[i + 1]; ++k) {
             const auto other = neighbours.index[k];
             if (other > i || dropped[other]) continue;
-            if ((scan.points_mm[i] - scan.points_mm[other]).squaredNorm() > options.max_jump_mm * options.max_jump_mm) continue;
+            if ((scan.points_mm[i] - scan.points_mm[other]).squaredNorm() > options.max_jump_mm * options.max_jump_mm)
+                continue;
             const auto a = root(parent, static_cast<std::uint32_t>(i)), b = root(parent, other);
             if (a != b) parent[std::max(a, b)] = std::min(a, b);
         }
@@ -202,7 +207,8 @@ RangeScan clean(const RangeScan& scan, const CleaningOptions& options, CleaningR
     for (std::size_t f = 0; f < scan.faces.size(); ++f) {
         std::vector<std::uint32_t> face_corners;
         for (const auto v : scan.faces[f]) face_corners.push_back(place[v]);
-        if (std::find(face_corners.begin(), face_corners.end(), std::numeric_limits<std::uint32_t>::max()) == face_corners.end())
+        if (std::find(face_corners.begin(), face_corners.end(), std::numeric_limits<std::uint32_t>::max()) ==
+            face_corners.end())
             cleaned.faces.add(face_corners);
     }
     return cleaned;

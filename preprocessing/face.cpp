@@ -52,7 +52,8 @@ geometry::QuadGrid read_grid(const std::filesystem::path& file, int rows, int co
     geometry::QuadGrid grid;
     grid.rows = rows;
     grid.cols = cols;
-    if (rows < 2 || cols < 2 || mesh.vertices_mm.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))
+    if (rows < 2 || cols < 2 ||
+        mesh.vertices_mm.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))
         throw InputError(fmt::format("{}: {} vertices where its .json says {} x {}; run 'mimik preprocess' again",
                                      file.string(), mesh.vertices_mm.size(), rows, cols));
     grid.vertices_mm = std::move(mesh.vertices_mm);
@@ -111,7 +112,8 @@ Face read_face(const std::filesystem::path& stem) {
         face.average_from_scan_affine = transform_from_json(document.at("average_from_scan_affine"));
         face.alignment_rms_mm = document.at("alignment_rms_mm").get<double>();
         face.remarks = document.at("remarks").get<std::vector<std::string>>();
-        face.grid = read_grid(with_suffix(stem, ".ply"), document.at("rows").get<int>(), document.at("cols").get<int>());
+        face.grid =
+            read_grid(with_suffix(stem, ".ply"), document.at("rows").get<int>(), document.at("cols").get<int>());
         return face;
     });
 }

@@ -10,8 +10,8 @@
 
 namespace mimik::preprocessing {
 
-/// One scan after preprocessing: cleaned, resampled, and tied to the average face by transforms that are kept beside it,
-/// so that every later result can be had in the scanner's own millimetres.
+/// One scan after preprocessing: cleaned, resampled, and tied to the average face by transforms that are kept beside
+/// it, so that every later result can be had in the scanner's own millimetres.
 struct Face {
     database::ScanId id;
     std::string sex;                        ///< "m", "f" or empty

@@ -10,7 +10,8 @@
 #include "geometry/file.h"
 #include "geometry/landmarks.h"
 
-// How our value types stand in the JSON files that people keep. For .cpp files only: the JSON library is a heavy header.
+// How our value types stand in the JSON files that people keep. For .cpp files only: the JSON library is a heavy
+// header.
 
 namespace mimik::preprocessing {
 
@@ -28,7 +29,8 @@ inline geometry::Transform transform_from_json(const nlohmann::json& rows) {
     geometry::Transform transform;
     for (std::size_t r = 0; r < 4; ++r)
         for (std::size_t c = 0; c < 4; ++c)
-            transform.matrix()(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = rows.at(r).at(c).get<double>();
+            transform.matrix()(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
+                rows.at(r).at(c).get<double>();
     return transform;
 }
 
@@ -41,7 +43,8 @@ inline geometry::Vector vector_from_json(const nlohmann::json& v) {
 inline nlohmann::json to_json(const geometry::Landmarks& landmarks) {
     auto list = nlohmann::json::array();
     for (const auto& mark : landmarks.all())
-        list.push_back({{"name", mark.name}, {"position_mm", to_json(mark.position_mm)}, {"label", mark.original_label}});
+        list.push_back(
+            {{"name", mark.name}, {"position_mm", to_json(mark.position_mm)}, {"label", mark.original_label}});
     return list;
 }
 
@@ -60,7 +63,8 @@ Value from_json_file(const std::filesystem::path& file, const Parse& parse) {
         const auto document = nlohmann::json::parse(geometry::read_text(file));
         const auto schema = document.value("schema", 0);
         if (schema != 1)
-            throw InputError(fmt::format("{}: schema is {}; this version of Mimik reads schema 1", file.string(), schema));
+            throw InputError(
+                fmt::format("{}: schema is {}; this version of Mimik reads schema 1", file.string(), schema));
         return parse(document);
     } catch (const nlohmann::json::exception& e) {
         throw InputError(fmt::format("{}: {}; the file is damaged or was edited by hand", file.string(), e.what()));

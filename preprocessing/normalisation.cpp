@@ -17,9 +17,10 @@ Transform least_squares(const Landmarks& source, const Landmarks& target, bool w
     const auto pairing = geometry::pair_by_name(source, target);
     const auto n = static_cast<Eigen::Index>(pairing.pairs.size());
     if (n < 3)
-        throw InputError(fmt::format("only {} landmarks are shared; a similarity needs three or more (eye corners, "
-                                     "nose tip, mouth corners are best)",
-                                     n));
+        throw InputError(
+            fmt::format("only {} landmarks are shared; a similarity needs three or more (eye corners, "
+                        "nose tip, mouth corners are best)",
+                        n));
     Eigen::Matrix3Xd from(3, n), to(3, n);
     for (Eigen::Index k = 0; k < n; ++k) {
         from.col(k) = pairing.pairs[static_cast<std::size_t>(k)].source_mm;
@@ -46,9 +47,10 @@ Transform affine_normalisation(const Landmarks& landmarks, const Landmarks& aver
     const double volume = std::abs(b.topLeftCorner<3, 3>().determinant()) / 6.0;
     const double extent = b.topLeftCorner<3, 3>().norm();
     if (!(volume > 1e-4 * extent * extent * extent))
-        throw NumericalError(fmt::format("outer eye corners, chin and nose tip lie nearly in one plane (volume {:.3g} "
-                                         "mm^3), so Eq. 5.3 has no answer; check these four landmarks",
-                                         volume));
+        throw NumericalError(
+            fmt::format("outer eye corners, chin and nose tip lie nearly in one plane (volume {:.3g} "
+                        "mm^3), so Eq. 5.3 has no answer; check these four landmarks",
+                        volume));
     Transform average_from_scan;
     average_from_scan.matrix() = b.transpose().partialPivLu().solve(a.transpose()).transpose();
     average_from_scan.makeAffine();

@@ -63,9 +63,10 @@ RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::S
         }
         const auto kept = static_cast<std::size_t>(std::ceil(options.trim * static_cast<double>(pairs.size())));
         if (kept < 30)
-            throw NumericalError(fmt::format("rigid alignment: only {} of {} points found a partner on the other scan; "
-                                             "30 are needed (is this the same face, in the same unit?)",
-                                             kept, source_mm.size()));
+            throw NumericalError(
+                fmt::format("rigid alignment: only {} of {} points found a partner on the other scan; "
+                            "30 are needed (is this the same face, in the same unit?)",
+                            kept, source_mm.size()));
         std::stable_sort(pairs.begin(), pairs.end(),
                          [](const Pair& a, const Pair& b) { return a.distance_mm < b.distance_mm; });
         pairs.resize(kept);

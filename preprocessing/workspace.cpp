@@ -59,8 +59,7 @@ fs::path fingerprint_file(const fs::path& stem) {
 
 bool finished(const fs::path& stem, const std::string& fingerprint) {
     std::error_code error;
-    return fs::exists(fingerprint_file(stem), error) &&
-           geometry::read_text(fingerprint_file(stem)) == fingerprint;
+    return fs::exists(fingerprint_file(stem), error) && geometry::read_text(fingerprint_file(stem)) == fingerprint;
 }
 
 }  // namespace
@@ -103,8 +102,8 @@ Face preprocess_scan(const database::LoadedScan& loaded, const PreprocessOptions
         const auto [other, fresh] = taken.emplace(nearest.index, mark.name);
         // Closed lips: two landmarks can share a nearest vertex, and a spline through both would be singular.
         if (!fresh)
-            face.remarks.push_back(fmt::format("landmarks '{}' and '{}' have the same nearest grid vertex", other->second,
-                                               mark.name));
+            face.remarks.push_back(
+                fmt::format("landmarks '{}' and '{}' have the same nearest grid vertex", other->second, mark.name));
         mark.position_mm = inside[nearest.index];
     }
     face.snapped_landmarks = geometry::Landmarks(std::move(snapped));
@@ -142,15 +141,16 @@ PreprocessReport preprocess_database(const database::ScanDatabase& database, con
     std::map<std::string, std::vector<const ScanEntry*>> by_subject;
     for (const auto* entry : selected_scans(database, options)) by_subject[entry->id.subject].push_back(entry);
     if (by_subject.empty())
-        throw InputError(fmt::format("{}: no scan fits the selection; 'mimik scans' lists what there is", database.root.string()));
+        throw InputError(
+            fmt::format("{}: no scan fits the selection; 'mimik scans' lists what there is", database.root.string()));
     std::vector<std::string> subjects;
     for (const auto& [subject, entries] : by_subject) subjects.push_back(subject);
 
     // First pass: one neutral per subject, gridded and written. A neutral that fails gives its place to the next one.
-    std::string average_fingerprint = describe(options) + fmt::format(" average {} {} {} {} {} {}", options.average.rows,
-                                                                      options.average.cols, options.average.half_width,
-                                                                      options.average.above_eyes, options.average.below_chin,
-                                                                      options.average.min_share);
+    std::string average_fingerprint =
+        describe(options) + fmt::format(" average {} {} {} {} {} {}", options.average.rows, options.average.cols,
+                                        options.average.half_width, options.average.above_eyes,
+                                        options.average.below_chin, options.average.min_share);
     std::vector<const ScanEntry*> neutral_of(subjects.size(), nullptr);
     std::vector<geometry::Landmarks> neutral_landmarks(subjects.size());
     geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -203,8 +203,8 @@ PreprocessReport preprocess_database(const database::ScanDatabase& database, con
         double rms_mm = 0;
         const auto consensus = consensus_landmarks(sets, options.average.max_iterations, &rms_mm);
         average = build_average_face(
-            usable.size(), [&](std::size_t k) { return read_face(face_stem(root, neutral_of[usable[k]]->id)); }, consensus,
-            options.average);
+            usable.size(), [&](std::size_t k) { return read_face(face_stem(root, neutral_of[usable[k]]->id)); },
+            consensus, options.average);
         average.consensus_rms_mm = rms_mm;
         write_average_face(average_stem(root), average, average_fingerprint);
         average = read_average_face(average_stem(root));
@@ -225,8 +225,9 @@ PreprocessReport preprocess_database(const database::ScanDatabase& database, con
             for (const auto* entry : by_subject.at(subjects[s])) {
                 const auto stem = face_stem(root, entry->id);
                 const std::string fingerprint =
-                    (entry == neutral_of[s] ? describe(options) + " neutral " + stamp(*entry)
-                                            : describe(options) + " scan " + stamp(*entry) + " average " + average_fingerprint);
+                    (entry == neutral_of[s]
+                         ? describe(options) + " neutral " + stamp(*entry)
+                         : describe(options) + " scan " + stamp(*entry) + " average " + average_fingerprint);
                 try {
                     if (entry != neutral_of[s] && finished(stem, fingerprint)) {
                         const std::scoped_lock lock(report_mutex);
@@ -240,8 +241,10 @@ PreprocessReport preprocess_database(const database::ScanDatabase& database, con
                     } else {
                         if (failed_neutrals.contains(entry->id.name())) continue;  // reported in the first pass
                         Face face = preprocess_scan(database::load(*entry), options);
-                        align_to_neutral(face, neutral, stable_region ? stable_region(face.id, neutral) : stable_on_every_face(neutral),
-                                         options.alignment);
+                        align_to_neutral(
+                            face, neutral,
+                            stable_region ? stable_region(face.id, neutral) : stable_on_every_face(neutral),
+                            options.alignment);
                         face.average_from_scan = neutral.average_from_scan * face.neutral_from_scan;
                         face.average_from_scan_affine = affine_normalisation(face.snapped_landmarks, average.landmarks);
                         write_face(stem, face);
@@ -265,7 +268,8 @@ PreprocessReport preprocess_database(const database::ScanDatabase& database, con
         for (const auto& id : ids) names.push_back(id.name());
     std::sort(names.begin(), names.end());
     auto failures = nlohmann::json::array();
-    for (const auto& failure : report.failures) failures.push_back({{"scan", failure.scan}, {"reason", failure.reason}});
+    for (const auto& failure : report.failures)
+        failures.push_back({{"scan", failure.scan}, {"reason", failure.reason}});
     const nlohmann::json document = {{"schema", 1},
                                      {"kind", "mimik workspace"},
                                      {"database", fs::absolute(database.root).lexically_normal().string()},
@@ -296,14 +300,15 @@ void align_to_neutral(Face& face, const Face& neutral, const std::vector<char>& 
 Workspace::Workspace(fs::path root) : root_(std::move(root)) {
     const auto file = root_ / "workspace.json";
     if (!fs::exists(file))
-        throw InputError(fmt::format("{}: no workspace.json there; make one with 'mimik preprocess DB -o {}'", root_.string(),
-                                     root_.string()));
+        throw InputError(fmt::format("{}: no workspace.json there; make one with 'mimik preprocess DB -o {}'",
+                                     root_.string(), root_.string()));
     from_json_file<int>(file, [&](const nlohmann::json& document) {
         database_root_ = document.at("database").get<std::string>();
         hidden_subjects_ = document.at("hidden_subjects").get<std::vector<std::string>>();
         for (const auto& name : document.at("scans")) {
             const auto id = database::parse_scan_name(name.get<std::string>());
-            if (!id) throw InputError(fmt::format("{}: '{}' is not a scan name", file.string(), name.get<std::string>()));
+            if (!id)
+                throw InputError(fmt::format("{}: '{}' is not a scan name", file.string(), name.get<std::string>()));
             scans_.push_back(*id);
         }
         return 0;

@@ -15,8 +15,8 @@
 
 namespace mimik::preprocessing {
 
-/// Which vertices of a neutral face's grid the expression of `scan` leaves where they are (1) or may move (0). The rooms
-/// that know about Action Units supply it; without one the nose bridge, inner eye corners and temples are taken.
+/// Which vertices of a neutral face's grid the expression of `scan` leaves where they are (1) or may move (0). The
+/// rooms that know about Action Units supply it; without one the nose bridge, inner eye corners and temples are taken.
 using StableRegion = std::function<std::vector<char>(const database::ScanId& scan, const Face& neutral)>;
 [[nodiscard]] std::vector<char> stable_on_every_face(const Face& neutral);
 
@@ -26,8 +26,8 @@ struct PreprocessOptions {
     AverageFaceOptions average;
     RigidAlignmentOptions alignment;
     std::vector<std::string> subjects;  ///< empty: all
-    std::vector<std::string> codes;     ///< expression codes to take beside the neutrals, e.g. "12", "HAPPY"; empty: all
-                                        ///< of groups N, E, UFAU, LFAU, CAU (poses and occlusions are left out)
+    std::vector<std::string> codes;  ///< expression codes to take beside the neutrals, e.g. "12", "HAPPY"; empty: all
+                                     ///< of groups N, E, UFAU, LFAU, CAU (poses and occlusions are left out)
 };
 
 /// One scan to a face in the scanner's frame: cleaned, gridded, landmarks snapped; transforms still identity.
@@ -79,8 +79,9 @@ private:
     std::vector<std::string> hidden_subjects_;
 };
 
-/// Preprocesses a whole database, in parallel over subjects, one scan in memory per thread. What an earlier run finished
-/// with the same options on the same file is not done again. A scan that fails is reported and the rest goes on.
+/// Preprocesses a whole database, in parallel over subjects, one scan in memory per thread. What an earlier run
+/// finished with the same options on the same file is not done again. A scan that fails is reported and the rest goes
+/// on.
 /// @param progress  called once per scan, from any thread; may be empty.
 PreprocessReport preprocess_database(const database::ScanDatabase& database, const std::filesystem::path& root,
                                      const PreprocessOptions& options = {}, const StableRegion& stable_region = {},

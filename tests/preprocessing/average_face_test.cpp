@@ -24,7 +24,9 @@ TEST(ConsensusLandmarks, of_copies_that_were_turned_and_shifted_is_the_face_itse
     EXPECT_LT(rms_mm, 1e-8);
     const Point nose = marks.position_mm("nose_tip");
     for (const auto& mark : marks.all())
-        EXPECT_LT((consensus.position_mm(mark.name) - (mark.position_mm - nose)).norm(), 1e-6) << mark.name;
+        // The mean of copies turned by 0.1 rad is 2 / 3 (1 - cos 0.1) = 0.3 % narrower and shallower than the face, and
+        // the pitch that lays the face best on it differs by some 1e-4 rad: 0.02 mm at 100 mm.
+        EXPECT_LT((consensus.position_mm(mark.name) - (mark.position_mm - nose)).norm(), 0.05) << mark.name;
 }
 
 TEST(ConsensusLandmarks, is_mirror_symmetric_with_the_nose_tip_at_the_origin) {
@@ -51,15 +53,17 @@ TEST(AverageFace, of_equal_faces_is_that_face_with_its_nose_tip_at_the_origin) {
     loaded.entry.id = {"bs000", "N", "N", 0};
     const Face gridded = preprocess_scan(loaded, {});
     const std::vector<Landmarks> sets = {gridded.landmarks, gridded.landmarks};
-    const auto average = build_average_face(2, [&](std::size_t) { return gridded; }, consensus_landmarks(sets));
+    const auto average = build_average_face(
+        2, [&](std::size_t) { return gridded; }, consensus_landmarks(sets));
     std::size_t compared = 0;
     for (std::size_t v = 0; v < average.grid.size(); ++v) {
         const Point& p = average.grid.vertices_mm[v];
         if (!average.grid.inside(v) || std::abs(p.x()) > 50 || p.y() > 70 || p.y() < -60) continue;
         ++compared;
-        // Depth of the closed form less that of the tip. Two resamplings of a 1 mm lattice leave the curvature of the nose ridge,
-        // h^2 / 8 * z'' = 1 / 8 * 22 / 81 = 0.03 mm each, and of the fold between the lips three times that.
-        EXPECT_NEAR(p.z(), test::AnalyticFace::depth(p.x(), p.y()) - test::AnalyticFace::depth(0, 0), 0.2) << p.transpose();
+        // Depth of the closed form less that of the tip. Linear interpolation leaves h^2 / 8 * z'': in the fold
+        // between the lips (2 / 1.5^2 per mm) 0.11 mm for the 1 mm lattice and 0.17 mm for rows 1.23 mm apart.
+        EXPECT_NEAR(p.z(), test::AnalyticFace::depth(p.x(), p.y()) - test::AnalyticFace::depth(0, 0), 0.29)
+            << p.transpose();
     }
     EXPECT_GT(compared, 5000U);
 }

@@ -51,7 +51,8 @@ TEST(RigidAlignment, recovers_a_known_motion_from_the_part_that_does_not_move) {
     const auto found = align_rigidly(source, geometry::SurfaceIndex(target.vertices, target.triangles));
     EXPECT_TRUE(found.converged);
     double worst = 0;
-    for (const auto& p : source) worst = std::max(worst, (found.target_from_source * p - target_from_source * p).norm());
+    for (const auto& p : source)
+        worst = std::max(worst, (found.target_from_source * p - target_from_source * p).norm());
     // The 1 mm mesh of the target cuts the corners of the true surface by some hundredths of a millimetre.
     EXPECT_LT(worst, 0.05);
     EXPECT_LT(found.rms_mm, 0.03);

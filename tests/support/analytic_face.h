@@ -10,8 +10,8 @@
 
 namespace mimik::test {
 
-/// A face-like height field in closed form: an ellipsoid with a nose, eye hollows, brows, lips and a chin. Good for known answers, no
-/// more: z(x, y) and all 22 landmarks follow from `scale` and `smile_mm` alone.
+/// A face-like height field in closed form: an ellipsoid with a nose, eye hollows, brows, lips and a chin. Good for
+/// known answers, no more: z(x, y) and all 22 landmarks follow from `scale` and `smile_mm` alone.
 struct AnalyticFace {
     double scale = 1.0;
     double smile_mm = 0.0;  ///< mouth corners move out and up by this much, the skin around them along
@@ -21,13 +21,14 @@ struct AnalyticFace {
     }
     /// Depth of the neutral face at unit scale.
     [[nodiscard]] static double depth(double x, double y) {
-        double z = 70.0 * std::sqrt(std::max(0.0, 1.0 - x * x / (85.0 * 85.0) - (y - 5) * (y - 5) / (115.0 * 115.0))) - 70.0;
-        z += 22.0 * bump(x, y, 0, 0, 9, 14);                                            // nose
-        z -= 5.0 * (bump(x, y, 32, 35, 12, 7) + bump(x, y, -32, 35, 12, 7));            // eye hollows
-        z += 3.0 * (bump(x, y, 32, 52, 16, 5) + bump(x, y, -32, 52, 16, 5));            // brows
-        z += 3.5 * (bump(x, y, 0, -27, 15, 3.5) + bump(x, y, 0, -36, 13, 4));           // lips
-        z -= 2.0 * bump(x, y, 0, -31.5, 20, 1.5);                                       // between the lips
-        z += 5.0 * bump(x, y, 0, -60, 14, 9);                                           // chin
+        double z =
+            70.0 * std::sqrt(std::max(0.0, 1.0 - x * x / (85.0 * 85.0) - (y - 5) * (y - 5) / (115.0 * 115.0))) - 70.0;
+        z += 22.0 * bump(x, y, 0, 0, 9, 14);                                   // nose
+        z -= 5.0 * (bump(x, y, 32, 35, 12, 7) + bump(x, y, -32, 35, 12, 7));   // eye hollows
+        z += 3.0 * (bump(x, y, 32, 52, 16, 5) + bump(x, y, -32, 52, 16, 5));   // brows
+        z += 3.5 * (bump(x, y, 0, -27, 15, 3.5) + bump(x, y, 0, -36, 13, 4));  // lips
+        z -= 2.0 * bump(x, y, 0, -31.5, 20, 1.5);                              // between the lips
+        z += 5.0 * bump(x, y, 0, -60, 14, 9);                                  // chin
         return z;
     }
     /// How the smile moves a point of the unit face in x and y.
