@@ -4,14 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "geometry/spline_kernel.h"
 #include "geometry/types.h"
 
 namespace mimik::geometry {
-
-enum class SplineKernel {
-    r,         ///< U(r) = -r, the biharmonic kernel of three dimensions
-    r2_log_r2  ///< U(r) = r^2 ln r^2, Eq. 4.4 of the thesis (the biharmonic kernel of two dimensions)
-};
 
 struct ThinPlateSplineOptions {
     SplineKernel kernel = SplineKernel::r;
@@ -51,6 +47,8 @@ public:
     [[nodiscard]] const Transform& affine() const { return affine_; }
 
 private:
+    void evaluate(const Point* source_mm, Point* target_mm, std::size_t count) const;
+
     SplineKernel kernel_ = SplineKernel::r;
     std::vector<Point> centres_mm_;
     std::vector<Vector> weights_;

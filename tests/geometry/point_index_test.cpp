@@ -68,6 +68,7 @@ TEST(PointIndex, agrees_with_brute_force_on_a_random_cloud) {
 TEST(PointIndex, ties_go_to_the_lower_index_alone_and_in_a_batch) {
     const auto points = lattice(9);
     std::vector<Point> queries;
+    queries.reserve(points.size());
     for (const auto& p : points) queries.push_back(p + Vector(0.5, 0.5, p.x() > 4 ? 0.5 : 0.0));  // 4 or 8 equal ones
     const PointIndex index(points);
     const auto batch = index.nearest(queries);
@@ -114,7 +115,7 @@ TEST(PointIndex, no_point_a_point_that_is_not_finite_and_a_bad_query_are_refused
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(PointIndex(std::vector<Point>{}), InputError);
     try {
-        PointIndex(std::vector<Point>{{0, 0, 0}, {0, nan, 0}});
+        const PointIndex index(std::vector<Point>{{0, 0, 0}, {0, nan, 0}});
         FAIL() << "accepted";
     } catch (const InputError& e) {
         EXPECT_THAT(e.what(), HasSubstr("point 1 "));

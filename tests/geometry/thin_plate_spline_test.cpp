@@ -43,6 +43,7 @@ std::vector<Point> moved(const std::vector<Point>& points, std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.2, Vector(1, 2, 3).normalized()).toRotationMatrix();
     std::vector<Point> result;
+    result.reserve(points.size());
     for (const auto& p : points)
         result.push_back(1.07 * turn * p +
                          Vector(between(engine, -5, 5), between(engine, -5, 5), between(engine, -5, 5)));
@@ -57,7 +58,7 @@ struct DirectSolve {
     SplineKernel kernel;
     Matrix K, solution;  // W above A^T
 
-    static Real U(SplineKernel kernel, Real squared) {
+    static Real kernel_value(SplineKernel kernel, Real squared) {
         if (squared == 0) return 0;
         return kernel == SplineKernel::r ? -std::sqrt(squared) : squared * std::log(squared);
     }
@@ -69,7 +70,8 @@ struct DirectSolve {
         Matrix system = Matrix::Zero(n + 4, n + 4), right = Matrix::Zero(n + 4, 3);
         for (Eigen::Index i = 0; i < n; ++i) {
             const auto& s = source[static_cast<std::size_t>(i)];
-            for (Eigen::Index j = 0; j < n; ++j) K(i, j) = U(kernel, squared(s, source[static_cast<std::size_t>(j)]));
+            for (Eigen::Index j = 0; j < n; ++j)
+                K(i, j) = kernel_value(kernel, squared(s, source[static_cast<std::size_t>(j)]));
             const Eigen::Matrix<Real, 1, 4> row(1, s.x(), s.y(), s.z());
             system.block(i, n, 1, 4) = row;
             system.block(n, i, 4, 1) = row.transpose();
@@ -83,7 +85,7 @@ struct DirectSolve {
         const auto n = static_cast<Eigen::Index>(centres.size());
         Eigen::Matrix<Real, 1, 3> value = Eigen::Matrix<Real, 1, 4>(1, p.x(), p.y(), p.z()) * solution.bottomRows(4);
         for (Eigen::Index i = 0; i < n; ++i)
-            value += U(kernel, squared(p, centres[static_cast<std::size_t>(i)])) * solution.row(i);
+            value += kernel_value(kernel, squared(p, centres[static_cast<std::size_t>(i)])) * solution.row(i);
         return value.transpose().cast<double>();
     }
     [[nodiscard]] double energy() const {
@@ -166,6 +168,7 @@ TEST(ThinPlateSpline, reproduces_an_affine_map_away_from_the_points_and_does_not
     map.translation() = Vector(5, -7, 900);
     const auto source = face_points(40, 9);
     std::vector<Point> target;
+    target.reserve(source.size());
     for (const auto& s : source) target.push_back(map * s);
     for (const auto kernel : both_kernels)
         for (const double smoothing : {0.0, 10.0}) {

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace mimik::geometry {
+
+enum class SplineKernel {
+    r,         ///< U(r) = -r, the biharmonic kernel of three dimensions
+    r2_log_r2  ///< U(r) = r^2 ln r^2, Eq. 4.4 of the thesis (the biharmonic kernel of two dimensions)
+};
+
+}  // namespace mimik::geometry
