@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -11,24 +12,16 @@
 
 #include <fmt/format.h>
 
+#include "geometry/box_distance.h"
 #include "geometry/errors.h"
 #include "geometry/parallel.h"
 
 namespace mimik::geometry {
 namespace {
 
-constexpr std::uint32_t width = 8;  // children per node: two SSE or one AVX register of floats
+constexpr std::size_t width = BoxNode::width;
 constexpr double max_coordinate_mm = 1e9;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-// Boxes of the children, relative to the surface's centre and rounded outwards. Unused children have an empty box,
-// which is infinitely far from everything.
-struct Node {
-    std::array<std::array<float, width>, 3> low;
-    std::array<std::array<float, width>, 3> high;
-    std::array<std::uint32_t, width> child;  // a node, or in a leaf the slot of a triangle
-    bool leaf = false;
-};
 
 // What measuring needs, in the order of the leaves; b and c as edges from a.
 struct Corners {
@@ -131,9 +124,10 @@ struct PositionHash {
 struct SurfaceIndex::Impl {
     std::vector<Point> vertices;
     std::vector<Triangle> triangles;
-    std::vector<Node> nodes;
+    std::vector<BoxNode> nodes;
     std::vector<Corners> slots;
     Point centre = Point::Zero();
+    BoxDistances distances = box_distances();
 
     // Only those who ask for borders pay for them.
     mutable std::once_flag border_once;
@@ -272,12 +266,13 @@ struct SurfaceIndex::Impl {
         while (waiting > 0) {
             const Entry entry = stack[--waiting];
             if (entry.bound > limit) continue;
-            const Node& node = nodes[entry.node];
-            std::array<float, width> bound;
-            lower_bounds(node, q_low, q_high, bound);
+            const BoxNode& node = nodes[entry.node];
+            alignas(32) std::array<float, width> bound;
+            std::uint32_t within = distances(node, q_low.data(), q_high.data(), limit, bound.data());
             if (node.leaf) {
-                for (std::size_t k = 0; k < width; ++k) {
-                    if (!(bound[k] <= limit)) continue;
+                for (; within != 0; within &= within - 1) {
+                    const auto k = static_cast<std::size_t>(std::countr_zero(within));
+                    if (bound[k] > limit) continue;
                     const std::uint32_t slot = node.child[k];
                     const double squared = measure(slots[slot], query).squared_mm2;
                     if (squared < best.squared_mm2 ||
@@ -288,8 +283,8 @@ struct SurfaceIndex::Impl {
                 }
             } else {
                 const std::size_t first = waiting;
-                for (std::size_t k = 0; k < width; ++k) {
-                    if (!(bound[k] <= limit)) continue;
+                for (; within != 0; within &= within - 1) {
+                    const auto k = static_cast<std::size_t>(std::countr_zero(within));
                     std::size_t place = waiting++;
                     for (; place > first && stack[place - 1].bound < bound[k]; --place) stack[place] = stack[place - 1];
                     stack[place] = {bound[k], node.child[k]};
@@ -299,21 +294,6 @@ struct SurfaceIndex::Impl {
     }
 
     static float upper(double squared) { return static_cast<float>(squared) * 1.000001F + 1e-37F; }
-
-    // Squared distances from the query to the boxes, never above the true ones.
-    static void lower_bounds(const Node& node, const std::array<float, 3>& q_low, const std::array<float, 3>& q_high,
-                             std::array<float, width>& bound) {
-        for (std::size_t k = 0; k < width; ++k) bound[k] = 0.0F;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::size_t k = 0; k < width; ++k) {
-                const float before = node.low[axis][k] - q_high[axis];
-                const float after = q_low[axis] - node.high[axis][k];
-                float gap = before > after ? before : after;
-                gap = gap > 0.0F ? gap : 0.0F;
-                bound[k] += gap * gap;
-            }
-        for (std::size_t k = 0; k < width; ++k) bound[k] *= 0.999999F;
-    }
 
     SurfacePoint answer(const Point& query, std::uint32_t slot) const {
         const Corners& t = slots[slot];
@@ -460,7 +440,7 @@ bool SurfaceIndex::first_hit(const Point& origin_mm, const Vector& direction, Su
 
     std::vector<std::uint32_t> stack = {0};
     while (!stack.empty()) {
-        const Node& node = impl_->nodes[stack.back()];
+        const BoxNode& node = impl_->nodes[stack.back()];
         stack.pop_back();
         for (std::size_t k = 0; k < width; ++k) {
             double enter = 0.0, leave = best;
