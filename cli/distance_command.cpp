@@ -1,0 +1,95 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "evaluation/surface_distance.h"
+#include "geometry/errors.h"
+#include "geometry/mesh_io.h"
+#include "geometry/points_csv.h"
+
+namespace mimik::cli {
+namespace {
+
+using evaluation::DistanceSummary;
+using evaluation::VertexDistances;
+
+struct Request {
+    Common common;
+    std::filesystem::path test, reference, output;
+};
+
+geometry::Mesh read_test(const std::filesystem::path& file) {
+    auto extension = file.extension().string();
+    for (auto& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension != ".csv") return geometry::read_mesh(file);
+    geometry::Mesh cloud;
+    cloud.vertices_mm = geometry::read_points_csv(file).points;
+    return cloud;
+}
+
+nlohmann::ordered_json json_of(const DistanceSummary& s) {
+    return {{"n", s.n},        {"mean", s.mean_mm}, {"rms", s.rms_mm}, {"median", s.median_mm},
+            {"p95", s.p95_mm}, {"max", s.max_mm}};
+}
+
+std::string line_of(const char* side, const DistanceSummary& s) {
+    return fmt::format("{:<18} {:>8} {:>10.4f} {:>10.4f} {:>10.4f} {:>10.4f} {:>10.4f} {:>8}\n", side, s.n, s.mean_mm,
+                       s.rms_mm, s.median_mm, s.p95_mm, s.max_mm, s.border_hits);
+}
+
+void write_distances(const std::filesystem::path& file, geometry::Mesh mesh, const VertexDistances& distances) {
+    mesh.attributes.push_back({"distance_mm", 1, distances.distance_mm});
+    mesh.attributes.push_back({"on_border", 1, {distances.on_border.begin(), distances.on_border.end()}});
+    geometry::write_mesh(file, mesh);
+}
+
+void run(const Request& request) {
+    auto test = read_test(request.test);
+    const auto reference = geometry::read_mesh(request.reference);
+    if (reference.faces.size() == 0)
+        throw InputError(
+            fmt::format("{}: the reference has {} vertices but no face; distances need a surface: give a mesh",
+                        request.reference.string(), reference.vertices_mm.size()));
+    const auto distance = evaluation::surface_distance(test, reference);
+    if (!request.output.empty()) write_distances(request.output, std::move(test), distance.test_to_reference);
+    if (request.common.json) {
+        nlohmann::ordered_json document = {{"units", "mm"},
+                                           {"test_to_reference", json_of(distance.test_to_reference.summary)}};
+        document["reference_to_test"] =
+            distance.reference_to_test ? json_of(distance.reference_to_test->summary) : nlohmann::ordered_json(nullptr);
+        std::cout << document.dump(2) << '\n';
+        return;
+    }
+    std::cout << fmt::format("{:<18} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8}\n", "mm", "n", "mean", "rms",
+                             "median", "p95", "max", "border")
+              << line_of("test to reference", distance.test_to_reference.summary);
+    if (distance.reference_to_test)
+        std::cout << line_of("reference to test", distance.reference_to_test->summary);
+    else if (!request.common.quiet)
+        std::cout << "reference to test: none, the test has no face\n";
+}
+
+}  // namespace
+
+void add_distance_command(CLI::App& app, int& exit_code) {
+    const auto request = std::make_shared<Request>();
+    auto* command = app.add_subcommand("distance", "Distances between two surfaces, in both directions");
+    command
+        ->add_option("test", request->test, "Mesh (PLY, OBJ, STL, VTP, PCD), or CSV of points with a header name,x,y,z")
+        ->required();
+    command->add_option("reference", request->reference, "Mesh with faces")->required();
+    command->add_option("-o,--output", request->output,
+                        "VTP or PLY of the test with distance_mm and on_border per vertex");
+    add_common_options(*command, request->common);
+    command->callback([request, &exit_code] {
+        run(*request);
+        exit_code = exit_done;
+    });
+}
+
+}  // namespace mimik::cli
