@@ -1,0 +1,434 @@
+#include "database/doctor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <system_error>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+
+namespace mimik::database {
+namespace {
+
+using geometry::Landmarks;
+using geometry::Point;
+using geometry::Vector;
+
+/// Heads of these groups are turned or covered on purpose.
+bool posed_or_covered(const ScanId& id) {
+    return id.group == "YR" || id.group == "PR" || id.group == "CR" || id.group == "O" || id.group == "IGN";
+}
+
+class Report {
+public:
+    explicit Report(std::string file) : file_(std::move(file)) {}
+    void add(Severity severity, std::string kind, std::string what, std::string mend, std::string where = {}) {
+        findings_.push_back(
+            {severity, std::move(kind), std::move(what), where.empty() ? file_ : std::move(where), std::move(mend)});
+    }
+    std::vector<Finding> finish() {
+        std::stable_sort(findings_.begin(), findings_.end(),
+                         [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+        return std::move(findings_);
+    }
+
+private:
+    std::string file_;
+    std::vector<Finding> findings_;
+};
+
+std::optional<double> distance_mm(const Landmarks& marks, std::string_view a, std::string_view b) {
+    const auto* p = marks.find(a);
+    const auto* q = marks.find(b);
+    return p && q ? std::optional((p->position_mm - q->position_mm).norm()) : std::nullopt;
+}
+
+/// Size against the adult mean (3D Facial Norms, men and women together), by the first distance that can be measured.
+std::optional<double> size_ratio(const Landmarks& marks) {
+    struct Norm {
+        std::string_view a, b;
+        double mean_mm;
+    };
+    static constexpr std::array<Norm, 4> norms = {{{"eye_outer_left", "eye_outer_right", 87.0},
+                                                   {"eye_inner_left", "eye_inner_right", 32.0},
+                                                   {"mouth_corner_left", "mouth_corner_right", 49.0},
+                                                   {"nose_wing_left", "nose_wing_right", 34.0}}};
+    for (const auto& norm : norms)
+        if (const auto measured = distance_mm(marks, norm.a, norm.b)) return *measured / norm.mean_mm;
+    return std::nullopt;
+}
+
+void check_unit(const LoadedScan& loaded, const DoctorOptions& options, Report& report) {
+    auto ratio = size_ratio(loaded.landmarks);
+    std::string evidence = "its landmarks are";
+    if (!ratio) {
+        // Without landmarks: the box around the scan; a face with hair and neck has 200 to 350 mm across.
+        Eigen::AlignedBox3d box;
+        for (const auto& p : loaded.scan.points_mm)
+            if (p.allFinite()) box.extend(p);
+        ratio = box.diagonal().norm() / 270.0;
+        evidence = "it is";
+    }
+    if (*ratio >= options.min_size_ratio && *ratio <= options.max_size_ratio) return;
+    struct Unit {
+        double mm;
+        const char *name, *mend;
+    };
+    static constexpr std::array<Unit, 3> units = {
+        {{10, "centimetres", "add unit=cm to manifest.csv, or multiply all coordinates by 10"},
+         {1000, "metres", "add unit=m to manifest.csv, or multiply all coordinates by 1000"},
+         {25.4, "inches", "multiply all coordinates of scan and landmarks by 25.4"}}};
+    const std::string what = fmt::format("{} {:.3g} times the size of an adult face", evidence, *ratio);
+    for (const auto& unit : units)
+        if (*ratio * unit.mm >= options.min_size_ratio && *ratio * unit.mm <= options.max_size_ratio)
+            return report.add(Severity::error, "unit", what + ": looks like " + unit.name, unit.mend);
+    report.add(Severity::error, "unit", what, "convert scan and landmarks to millimetres, and check the landmarks");
+}
+
+/// Axes of the head from its landmarks: lateral (to the subject's left), up, out of the face.
+struct HeadAxes {
+    Vector lateral, up, out;
+};
+std::optional<HeadAxes> head_axes(const Landmarks& marks) {
+    const auto mean = [&](std::initializer_list<std::string_view> names) -> std::optional<Point> {
+        Point sum = Point::Zero();
+        for (const auto name : names) {
+            const auto* mark = marks.find(name);
+            if (!mark) return std::nullopt;
+            sum += mark->position_mm;
+        }
+        return sum / static_cast<double>(names.size());
+    };
+    const auto eyes = mean({"eye_outer_left", "eye_outer_right", "eye_inner_left", "eye_inner_right"});
+    const auto mouth = mean({"mouth_corner_left", "mouth_corner_right"});
+    const auto nose = mean({"nose_tip"});
+    const auto left = mean({"eye_outer_left", "eye_inner_left", "mouth_corner_left"});
+    const auto right = mean({"eye_outer_right", "eye_inner_right", "mouth_corner_right"});
+    if (!eyes || !mouth || !nose || !left || !right) return std::nullopt;
+    HeadAxes axes;
+    axes.lateral = (*left - *right).normalized();
+    axes.up = *eyes - *mouth;
+    axes.up = (axes.up - axes.lateral * axes.lateral.dot(axes.up)).normalized();
+    // The nose tip stands before the plane of eyes and mouth corners whatever the names are.
+    Vector out = *nose - (*eyes + *mouth) / 2;
+    out -= axes.lateral * axes.lateral.dot(out);
+    axes.out = (out - axes.up * axes.up.dot(out)).normalized();
+    if (!axes.lateral.allFinite() || !axes.up.allFinite() || !axes.out.allFinite()) return std::nullopt;
+    return axes;
+}
+
+void check_frame(const LoadedScan& loaded, Report& report) {
+    const auto& found = loaded.checks.correlations;
+    const auto negative = [](const std::optional<double>& value) { return value && *value < 0; };
+    if (negative(found.x_u) || (negative(found.x_column) && !found.x_u))
+        report.add(Severity::error, "frame",
+                   fmt::format("x falls while the {} grows (correlation {:.2f}): x is mirrored",
+                               found.x_u ? "texture's u" : "column", found.x_u ? *found.x_u : *found.x_column),
+                   "change the sign of every x (scan and landmarks): +x is the subject's left, right in the image");
+    if (negative(found.y_v) || (negative(found.y_row) && !found.y_v))
+        report.add(
+            Severity::error, "frame",
+            fmt::format("y falls while the {} goes up (correlation {:.2f})", found.y_v ? "texture" : "row",
+                        found.y_v ? *found.y_v : *found.y_row),
+            "change the sign of every y (scan and landmarks), or turn the rows over: +y is up, row 0 the lowest");
+
+    const auto axes = head_axes(loaded.landmarks);
+    if (!axes) return;
+    const bool y_down = axes->up.y() < -0.5, z_away = axes->out.z() < -0.5;
+    if (y_down && z_away)
+        report.add(Severity::error, "frame", "y points down and z away from the camera (a camera frame)",
+                   "turn scan and landmarks by 180 degrees about x: change the signs of y and z");
+    else if (y_down)
+        report.add(Severity::error, "frame", "y points down: the mouth lies above the eyes",
+                   "change the sign of every y, or turn the scan by 180 degrees about z if the picture is upside down");
+    else if (z_away)
+        report.add(Severity::error, "frame",
+                   "z does not point toward the camera: the nose tip lies behind eyes and mouth",
+                   "change the sign of every z, in scan and landmarks");
+    else if (const double angle_deg =
+                 57.29577951308232 * std::acos(std::clamp(std::min(axes->up.y(), axes->out.z()), -1.0, 1.0));
+             angle_deg > 40 && !posed_or_covered(loaded.entry.id))
+        report.add(
+            Severity::warning, "frame",
+            fmt::format("the head is turned by {:.0f} degrees against the frame (y up, z out of the face)", angle_deg),
+            "turn scan and landmarks to y up and z toward the camera, or give the scan a pose code such as YR_R45");
+    if (axes->lateral.x() < -0.3)
+        report.add(
+            Severity::error, "sides", "the landmarks named left lie at smaller x than those named right",
+            "exchange left and right in the names (they are the subject's own), or change the sign of every x if the "
+            "scan is mirrored");
+}
+
+void check_sides(const LoadedScan& loaded, const Landmarks* neutral, Report& report) {
+    const auto& sides = loaded.checks.sides;
+    if (sides.pairs_agreeing > 0 && !sides.left_label_is_subject_right &&
+        loaded.entry.landmarks_file.extension() == ".lm3")
+        report.add(Severity::warning, "sides",
+                   "labels say left where +x is, unlike Bosphorus (image-left): taken as the subject's own left",
+                   "check that x is not mirrored; if the labels were meant as the viewer's, change the sign of every x",
+                   loaded.entry.landmarks_file.string());
+    // A vote of two pairs against one is weak: name the pair either way.
+    for (const auto& pair : sides.swapped_pairs)
+        report.add(Severity::error, "sides",
+                   fmt::format("left and right '{}' are swapped against the other pairs", pair),
+                   "exchange the two labels in the landmark file", loaded.entry.landmarks_file.string());
+    if (!neutral || loaded.entry.id.side() == Side::both) return;
+    const auto decision = decide_side(*neutral, loaded.landmarks);
+    if (decision.side == opposite(loaded.entry.id.side()))
+        report.add(
+            Severity::error, "one-sided",
+            fmt::format(
+                "is taken as the subject's {} side, but the {} mouth corner moves ({:.1f} mm against {:.1f} mm)",
+                to_string(loaded.entry.id.side()), to_string(decision.side),
+                std::max(decision.left_mm, decision.right_mm), std::min(decision.left_mm, decision.right_mm)),
+            fmt::format("rename the scan to {}, or check its mouth corners", loaded.entry.id.mirrored().expression()));
+}
+
+void check_landmarks_present(const LoadedScan& loaded, Report& report) {
+    if (loaded.entry.landmarks_file.empty())
+        return report.add(Severity::error, "landmarks-missing", "there is no landmark file",
+                          "mark the 22 points (docs/formats.md) and save them beside the scan");
+    // Preprocessing aligns by these (Eqs 5.1-5.4 and the rigid alternatives).
+    static constexpr std::array<std::string_view, 8> needed = {
+        "eye_outer_left", "eye_outer_right",   "eye_inner_left",    "eye_inner_right", "nose_tip",
+        "chin",           "mouth_corner_left", "mouth_corner_right"};
+    std::vector<std::string_view> vital, other;
+    for (const auto name : geometry::standard_landmark_names()) {
+        if (loaded.landmarks.find(name)) continue;
+        (std::find(needed.begin(), needed.end(), name) != needed.end() ? vital : other).push_back(name);
+    }
+    const std::string where = loaded.entry.landmarks_file.string();
+    if (!vital.empty())
+        report.add(posed_or_covered(loaded.entry.id) ? Severity::note : Severity::error, "landmarks-missing",
+                   fmt::format("landmarks needed for alignment are missing: {}", fmt::join(vital, ", ")),
+                   "mark them; a point that cannot be seen keeps the scan out of alignment by it", where);
+    if (!other.empty())
+        report.add(Severity::note, "landmarks-missing",
+                   fmt::format("landmarks are missing: {}", fmt::join(other, ", ")),
+                   "mark them if they can be seen; splines do without", where);
+}
+
+/// Landmarks whose order along the head's own axes is anatomy, not expression.
+void check_landmark_order(const LoadedScan& loaded, const DoctorOptions& options, Report& report) {
+    const auto axes = head_axes(loaded.landmarks);
+    if (!axes || posed_or_covered(loaded.entry.id)) return;
+    const auto check = [&](const std::string& greater, const std::string& less, const Vector& axis,
+                           const char* relation) {
+        const auto* a = loaded.landmarks.find(greater);
+        const auto* b = loaded.landmarks.find(less);
+        if (!a || !b) return;
+        const double by_mm = axis.dot(b->position_mm - a->position_mm);
+        if (by_mm > options.order_tolerance_mm)
+            report.add(Severity::error, "landmarks-swapped",
+                       fmt::format("'{}' should lie {} '{}', but lies {:.1f} mm on the other side", greater, relation,
+                                   less, by_mm),
+                       "exchange the two labels, or mark the points again", loaded.entry.landmarks_file.string());
+    };
+    for (const std::string side : {"_left", "_right"}) {
+        const Vector outward = side == "_left" ? axes->lateral : Vector(-axes->lateral);
+        check("brow_outer" + side, "brow_middle" + side, outward, "outside of");
+        check("brow_middle" + side, "brow_inner" + side, outward, "outside of");
+        check("eye_outer" + side, "eye_inner" + side, outward, "outside of");
+        check("brow_inner" + side, "eye_inner" + side, axes->up, "above");
+        check("brow_outer" + side, "eye_outer" + side, axes->up, "above");
+        check("eye_inner" + side, "nose_wing" + side, axes->up, "above");
+        check("nose_wing" + side, "mouth_corner" + side, axes->up, "above");
+    }
+    for (const auto& [above, below] : {std::pair{"nose_tip", "upper_lip_outer"},
+                                       {"upper_lip_outer", "upper_lip_inner"},
+                                       {"upper_lip_inner", "lower_lip_inner"},
+                                       {"lower_lip_inner", "lower_lip_outer"},
+                                       {"lower_lip_outer", "chin"}})
+        check(above, below, axes->up, "above");
+}
+
+void check_landmarks_on_scan(const LoadedScan& loaded, const DoctorOptions& options, Report& report) {
+    const auto nearest = nearest_scan_points(loaded.scan, loaded.landmarks);
+    std::vector<std::string> off;
+    double worst_mm = 0;
+    for (std::size_t m = 0; m < nearest.size(); ++m) {
+        if (nearest[m].distance_mm <= options.landmark_off_scan_mm) continue;
+        off.push_back(fmt::format("{} ({:.1f} mm)", loaded.landmarks.all()[m].name, nearest[m].distance_mm));
+        worst_mm = std::max(worst_mm, nearest[m].distance_mm);
+    }
+    if (off.empty()) return;
+    const std::string where = loaded.entry.landmarks_file.string();
+    if (2 * off.size() > nearest.size() && worst_mm > 5 * options.landmark_off_scan_mm)
+        return report.add(
+            Severity::error, "landmarks-off-scan",
+            fmt::format("{} of {} landmarks lie off the scan, up to {:.1f} mm", off.size(), nearest.size(), worst_mm),
+            "the landmark file seems to belong to another scan, frame or unit: pair the files again", where);
+    report.add(worst_mm > 5 * options.landmark_off_scan_mm ? Severity::error : Severity::warning, "landmarks-off-scan",
+               fmt::format("landmarks lie off the scan: {}", fmt::join(off, ", ")), "mark them again on the surface",
+               where);
+}
+
+void check_surface(const LoadedScan& loaded, const DoctorOptions& options, Report& report) {
+    const auto& scan = loaded.scan;
+    std::size_t valid = 0;
+    for (const auto& p : scan.points_mm) valid += p.allFinite() ? 1U : 0U;
+    if (valid < static_cast<std::size_t>(options.min_points))
+        report.add(Severity::warning, "points", fmt::format("has only {} measured points", valid),
+                   "scan again, or export the scan at full resolution");
+
+    if (const auto holes = find_holes(scan); !holes.judged)
+        report.add(Severity::note, "holes", "is a bare cloud: holes cannot be judged",
+                   "give the scan in rows or as a mesh to have them found");
+    else if (holes.count > 0)
+        report.add(holes.largest_mm > options.max_hole_mm ? Severity::warning : Severity::note, "holes",
+                   fmt::format("{} hole{}, the largest {:.1f} mm across at ({:.0f}, {:.0f}, {:.0f}) mm", holes.count,
+                               holes.count == 1 ? "" : "s", holes.largest_mm, holes.largest_at_mm.x(),
+                               holes.largest_at_mm.y(), holes.largest_at_mm.z()),
+                   "preprocessing bridges holes and marks the bridges, or keeps them as a mask; scan again if one lies "
+                   "where the "
+                   "expression moves");
+
+    const auto spikes = find_spikes(scan, options.spike_mm);
+    if (!spikes.empty())
+        report.add(
+            static_cast<double>(spikes.size()) > options.max_spike_share * static_cast<double>(valid)
+                ? Severity::warning
+                : Severity::note,
+            "spikes",
+            fmt::format(
+                "{} point{} ({:.2f} %) more than {} mm off the neighbourhood, the first at ({:.0f}, {:.0f}, {:.0f}) mm",
+                spikes.size(), spikes.size() == 1 ? "" : "s",
+                100.0 * static_cast<double>(spikes.size()) / static_cast<double>(valid), options.spike_mm,
+                scan.points_mm[spikes[0]].x(), scan.points_mm[spikes[0]].y(), scan.points_mm[spikes[0]].z()),
+            "preprocessing removes spikes; look at hair, glasses and eyelashes");
+}
+
+void check_texture(const LoadedScan& loaded, Report& report) {
+    const auto& entry = loaded.entry;
+    if (entry.texture_file.empty()) {
+        if (!loaded.scan.texture_file.empty())
+            report.add(Severity::note, "texture",
+                       fmt::format("its texture image '{}' is not beside it", loaded.scan.texture_file),
+                       "copy the image beside the scan to have textured results");
+        return;
+    }
+    if (loaded.scan.texture_coordinates.empty())
+        report.add(Severity::note, "texture", "has an image but no texture coordinates",
+                   "export the scan with texture coordinates", entry.texture_file.string());
+    try {
+        (void)load_texture(entry);
+    } catch (const InputError& e) {
+        report.add(Severity::warning, "texture", e.what(), "copy or export the image again",
+                   entry.texture_file.string());
+    }
+    if (const auto& found = loaded.checks.texture; found && !found->fits)
+        report.add(Severity::warning, "texture",
+                   fmt::format("the image does not fit the scan: landmarks are off by {:.0f} pixels at best",
+                               *std::min_element(found->median_error_px.begin(), found->median_error_px.end())),
+                   "check that image, scan and .lm2 are of the same recording", entry.texture_file.string());
+    else if (found && !found->as_expected())
+        report.add(
+            Severity::warning, "texture",
+            fmt::format(
+                "texture coordinates lie {} ({:.0f} pixels off, instead of {:.0f} as expected); Mimik turns them",
+                to_string(found->best), found->median_error_px[static_cast<std::size_t>(found->best)],
+                found->median_error_px[0]),
+            "write the scan again with u to the right and v down from the top (as .bnt has it)");
+}
+
+}  // namespace
+
+std::string to_string(Severity severity) {
+    return severity == Severity::note ? "note" : severity == Severity::warning ? "warning" : "error";
+}
+
+void DoctorOptions::check() const {
+    const auto positive = [](const char* name, double value) {
+        if (!(value > 0)) throw InputError(fmt::format("{} is {}; give more than 0", name, value));
+    };
+    positive("min_size_ratio", min_size_ratio);
+    positive("max_hole_mm", max_hole_mm);
+    positive("spike_mm", spike_mm);
+    positive("max_spike_share", max_spike_share);
+    positive("landmark_off_scan_mm", landmark_off_scan_mm);
+    positive("order_tolerance_mm", order_tolerance_mm);
+    positive("min_points", min_points);
+    if (!(max_size_ratio > min_size_ratio))
+        throw InputError(
+            fmt::format("max_size_ratio is {}; give more than min_size_ratio, {}", max_size_ratio, min_size_ratio));
+}
+
+std::vector<Finding> check_scan(const LoadedScan& loaded, const Landmarks* neutral, const DoctorOptions& options) {
+    options.check();
+    Report report(loaded.entry.scan_file.string());
+    check_unit(loaded, options, report);
+    check_frame(loaded, report);
+    check_sides(loaded, neutral, report);
+    check_landmarks_present(loaded, report);
+    check_landmark_order(loaded, options, report);
+    check_landmarks_on_scan(loaded, options, report);
+    check_surface(loaded, options, report);
+    check_texture(loaded, report);
+    return report.finish();
+}
+
+std::vector<Finding> check_scan(const ScanEntry& entry, const ScanEntry* neutral, const DoctorOptions& options) {
+    std::optional<Landmarks> neutral_landmarks;
+    if (neutral && entry.id.side() != Side::both) {
+        try {
+            neutral_landmarks = load(*neutral).landmarks;
+        } catch (const InputError&) {  // is reported where the neutral scan is checked
+        }
+    }
+    const auto* landmarks = neutral_landmarks ? &*neutral_landmarks : nullptr;
+    try {
+        return check_scan(load(entry), landmarks, options);
+    } catch (const InputError& e) {
+        Report report(entry.scan_file.string());
+        report.add(Severity::error, "unreadable", e.what(), "mend or replace the file");
+        auto findings = report.finish();
+        // Bad landmarks should not hide what is wrong with the scan itself.
+        if (entry.landmarks_file.empty()) return findings;
+        ScanEntry alone = entry;
+        alone.landmarks_file.clear();
+        alone.landmarks2d_file.clear();
+        try {
+            for (auto& finding : check_scan(load(alone), nullptr, options))
+                if (finding.kind != "landmarks-missing") findings.push_back(std::move(finding));
+        } catch (const InputError&) {  // the scan itself is what cannot be read: said above
+        }
+        return findings;
+    }
+}
+
+std::string to_json(const std::vector<Finding>& findings) {
+    auto array = nlohmann::json::array();
+    for (const auto& f : findings)
+        array.push_back({{"severity", to_string(f.severity)},
+                         {"kind", f.kind},
+                         {"what", f.what},
+                         {"where", f.where},
+                         {"mend", f.mend}});
+    return array.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::vector<Finding> findings_from_json(std::string_view json) {
+    try {
+        std::vector<Finding> findings;
+        for (const auto& item : nlohmann::json::parse(json)) {
+            const auto severity = item.at("severity").get<std::string>();
+            findings.push_back({severity == "error"     ? Severity::error
+                                : severity == "warning" ? Severity::warning
+                                                        : Severity::note,
+                                item.at("kind").get<std::string>(), item.at("what").get<std::string>(),
+                                item.at("where").get<std::string>(), item.at("mend").get<std::string>()});
+        }
+        return findings;
+    } catch (const nlohmann::json::exception& e) {
+        throw InputError(fmt::format("findings: not the JSON that the doctor writes ({})", e.what()));
+    }
+}
+
+}  // namespace mimik::database

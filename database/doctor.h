@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "database/scan_database.h"
+
+namespace mimik::database {
+
+enum class Severity {
+    note,     ///< worth knowing; preprocessing copes
+    warning,  ///< look at it: results on this scan may suffer
+    error     ///< the scan cannot be used as it is
+};
+[[nodiscard]] std::string to_string(Severity severity);
+
+/// One thing that is wrong, and how to mend it.
+struct Finding {
+    Severity severity = Severity::note;
+    std::string
+        kind;  ///< stable word for programs: "unit", "frame", "sides", "holes", ... (docs/database.md lists them)
+    std::string what;   ///< with the value
+    std::string where;  ///< the file, or the landmark
+    std::string mend;
+
+    bool operator==(const Finding&) const = default;
+};
+
+struct DoctorOptions {
+    double min_size_ratio = 0.6;  ///< eye distance, mouth width ... against the adult mean: children and extremes pass
+    double max_size_ratio = 1.6;
+    double max_hole_mm = 15.0;  ///< larger ones get a warning; an open eye or mouth is smaller
+    double spike_mm = 4.0;  ///< off the neighbourhood by more than this; a nose wall on a 0.8 mm lattice stays below
+    double max_spike_share = 0.002;  ///< of the valid points; more get a warning
+    double landmark_off_scan_mm =
+        2.0;  ///< landmarks are scan points; further off gets a warning, five times as far an error
+    double order_tolerance_mm = 2.0;  ///< landmarks may lie this much in the wrong order: closed lips, marking noise
+    int min_points = 2000;            ///< a face at the usual 0.8 mm has 35,000
+    void check() const;               ///< throws InputError naming field and value
+};
+
+/// Everything the doctor finds on one scan, worst first; nothing is thrown for a bad file. `neutral` (may be null): a
+/// neutral scan of the same subject, for the side of one-sided codes. Holes are judged on scans with rows or faces.
+[[nodiscard]] std::vector<Finding> check_scan(const ScanEntry& entry, const ScanEntry* neutral = nullptr,
+                                              const DoctorOptions& options = {});
+/// The same for a scan that is already loaded.
+[[nodiscard]] std::vector<Finding> check_scan(const LoadedScan& loaded, const geometry::Landmarks* neutral = nullptr,
+                                              const DoctorOptions& options = {});
+
+/// Holes of a scan: what is not measured but surrounded by what is.
+struct HoleReport {
+    bool judged = false;  ///< false for a bare cloud
+    int count = 0;
+    double largest_mm = 0;                                    ///< diagonal of the box around its rim
+    geometry::Point largest_at_mm = geometry::Point::Zero();  ///< middle of that box
+};
+[[nodiscard]] HoleReport find_holes(const geometry::RangeScan& scan);
+
+/// Points that lie off their neighbourhood by more than `spike_mm`, by index.
+[[nodiscard]] std::vector<std::size_t> find_spikes(const geometry::RangeScan& scan, double spike_mm);
+
+/// As a JSON array of objects with the fields of Finding, and back. @throws InputError on anything else.
+[[nodiscard]] std::string to_json(const std::vector<Finding>& findings);
+[[nodiscard]] std::vector<Finding> findings_from_json(std::string_view json);
+
+}  // namespace mimik::database

@@ -1,0 +1,161 @@
+// Holes and spikes of a scan (database/doctor.h).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
+#include <Eigen/Geometry>
+
+#include "database/doctor.h"
+#include "geometry/point_index.h"
+
+namespace mimik::database {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+void keep_largest(HoleReport& report, const Box& rim) {
+    const double size_mm = rim.diagonal().norm();
+    if (size_mm <= report.largest_mm) return;
+    report.largest_mm = size_mm;
+    report.largest_at_mm = rim.center();
+}
+
+/// Parts of the unmeasured cells that do not reach the edge of the lattice.
+HoleReport holes_of_lattice(const geometry::RangeScan& scan) {
+    const int rows = scan.rows, cols = scan.cols;
+    const auto at = [&](int row, int col) {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);
+    };
+    std::vector<char> seen(scan.points_mm.size(), 0);
+    std::vector<std::array<int, 2>> queue;
+    HoleReport report;
+    report.judged = true;
+    for (int start_row = 0; start_row < rows; ++start_row)
+        for (int start_col = 0; start_col < cols; ++start_col) {
+            if (scan.valid(at(start_row, start_col)) || seen[at(start_row, start_col)]) continue;
+            bool open = false;
+            Box rim;
+            queue.assign(1, {start_row, start_col});
+            seen[at(start_row, start_col)] = 1;
+            while (!queue.empty()) {
+                const auto [row, col] = queue.back();
+                queue.pop_back();
+                for (const auto& [dr, dc] : {std::array{0, 1}, {0, -1}, {1, 0}, {-1, 0}}) {
+                    const int r = row + dr, c = col + dc;
+                    if (r < 0 || c < 0 || r >= rows || c >= cols) {
+                        open = true;
+                    } else if (scan.valid(at(r, c))) {
+                        rim.extend(scan.points_mm[at(r, c)]);
+                    } else if (!seen[at(r, c)]) {
+                        seen[at(r, c)] = 1;
+                        queue.push_back({r, c});
+                    }
+                }
+            }
+            if (open) continue;
+            ++report.count;
+            keep_largest(report, rim);
+        }
+    return report;
+}
+
+/// Rims of a mesh: edges with one face, joined where they share a vertex. The largest rim is the scan's outline.
+HoleReport holes_of_mesh(const geometry::RangeScan& scan) {
+    HoleReport report;
+    report.judged = true;
+    std::unordered_map<std::uint64_t, int> uses;
+    for (std::size_t f = 0; f < scan.faces.size(); ++f) {
+        const auto face = scan.faces[f];
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const auto [a, b] = std::minmax(face[k], face[(k + 1) % face.size()]);
+            if (a != b) ++uses[std::uint64_t{a} << 32 | b];
+        }
+    }
+    std::unordered_map<std::uint32_t, std::uint32_t> parent;
+    const auto root = [&](std::uint32_t v) {
+        parent.try_emplace(v, v);
+        while (parent[v] != v) v = parent[v] = parent[parent[v]];
+        return v;
+    };
+    for (const auto& [edge, count] : uses)
+        if (count == 1) {
+            const auto a = root(static_cast<std::uint32_t>(edge >> 32)), b = root(static_cast<std::uint32_t>(edge));
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+    std::map<std::uint32_t, Box> rims;  // ordered: the report must not depend on hashing
+    for (const auto& [vertex, unused] : parent) rims[root(vertex)].extend(scan.points_mm[vertex]);
+    if (rims.size() < 2) return report;
+    const auto outline = std::max_element(rims.begin(), rims.end(), [](const auto& a, const auto& b) {
+        return a.second.diagonal().norm() < b.second.diagonal().norm();
+    });
+    for (auto it = rims.begin(); it != rims.end(); ++it) {
+        if (it == outline) continue;
+        ++report.count;
+        keep_largest(report, it->second);
+    }
+    return report;
+}
+
+/// A point is a spike if less than a quarter of the 5 x 5 window about it lies at its depth. Beside a straight depth
+/// jump at least nine of 24 do, in a corner eight.
+std::vector<std::size_t> spikes_of_lattice(const geometry::RangeScan& scan, double spike_mm) {
+    constexpr int reach = 2, min_neighbours = 8;
+    std::vector<std::size_t> spikes;
+    for (int row = 0; row < scan.rows; ++row)
+        for (int col = 0; col < scan.cols; ++col) {
+            const auto index =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(scan.cols) + static_cast<std::size_t>(col);
+            if (!scan.valid(index)) continue;
+            int near = 0, all = 0;
+            for (int r = std::max(0, row - reach); r <= std::min(scan.rows - 1, row + reach); ++r)
+                for (int c = std::max(0, col - reach); c <= std::min(scan.cols - 1, col + reach); ++c) {
+                    const auto other =
+                        static_cast<std::size_t>(r) * static_cast<std::size_t>(scan.cols) + static_cast<std::size_t>(c);
+                    if (other == index || !scan.valid(other)) continue;
+                    ++all;
+                    near += std::abs(scan.points_mm[other].z() - scan.points_mm[index].z()) <= spike_mm ? 1 : 0;
+                }
+            if (all >= min_neighbours && 4 * near < all) spikes.push_back(index);
+        }
+    return spikes;
+}
+
+/// Without a lattice: the nearest neighbour is further than `spike_mm` and than six times the usual distance.
+std::vector<std::size_t> spikes_of_cloud(const geometry::RangeScan& scan, double spike_mm) {
+    std::vector<std::size_t> valid, spikes;
+    std::vector<geometry::Point> points;
+    for (std::size_t i = 0; i < scan.points_mm.size(); ++i)
+        if (scan.points_mm[i].allFinite()) {
+            valid.push_back(i);
+            points.push_back(scan.points_mm[i]);
+        }
+    if (points.size() < 3) return spikes;
+    const geometry::PointIndex index(points);
+    std::vector<double> distances_mm;
+    for (const auto& p : points) distances_mm.push_back(index.nearest(p, 2).back().distance_mm);
+    std::vector<double> sorted = distances_mm;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+    const double limit_mm = std::max(spike_mm, 6 * sorted[sorted.size() / 2]);
+    for (std::size_t i = 0; i < valid.size(); ++i)
+        if (distances_mm[i] > limit_mm) spikes.push_back(valid[i]);
+    return spikes;
+}
+
+}  // namespace
+
+HoleReport find_holes(const geometry::RangeScan& scan) {
+    if (scan.organised()) return holes_of_lattice(scan);
+    if (scan.faces.size() > 0) return holes_of_mesh(scan);
+    return {};
+}
+
+std::vector<std::size_t> find_spikes(const geometry::RangeScan& scan, double spike_mm) {
+    return scan.organised() ? spikes_of_lattice(scan, spike_mm) : spikes_of_cloud(scan, spike_mm);
+}
+
+}  // namespace mimik::database
