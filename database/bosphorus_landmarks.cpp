@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -12,103 +11,38 @@
 #include "database/scan_id.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/landmark_io.h"
+#include "geometry/text.h"
 
 namespace mimik::database {
 namespace {
 
-constexpr std::size_t max_landmarks = 10'000;
 constexpr std::uintmax_t max_file_bytes = 4 << 20;
 
-bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-
-/// Trimmed, runs of blanks as one.
-std::string tidied(std::string_view line) {
-    std::string result;
-    for (const char c : line) {
-        if (!blank(c))
-            result += c;
-        else if (!result.empty() && result.back() != ' ')
-            result += ' ';
-    }
-    if (!result.empty() && result.back() == ' ') result.pop_back();
-    return result;
-}
-
-/// Lines one by one, tidied, with their number for messages.
-class Lines {
-public:
-    Lines(std::string_view text, const std::string& name) : text_(text), name_(name) {
-        if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
-    }
-    bool next(std::string& line) {
-        if (at_ >= text_.size()) return false;
-        const auto end = std::min(text_.find('\n', at_), text_.size());
-        line = tidied(text_.substr(at_, end - at_));
-        at_ = end + 1;
-        ++number_;
-        return true;
-    }
-    bool next_with_text(std::string& line) {
-        while (next(line))
-            if (!line.empty()) return true;
-        return false;
-    }
-    [[noreturn]] void fail(const std::string& what) const {
-        throw InputError(fmt::format("{}:{}: {}", name_, number_, what));
-    }
-
-private:
-    std::string_view text_;
-    const std::string& name_;
-    std::size_t at_ = 0;
-    int number_ = 0;
-};
-
-std::string shown(const std::string& text) { return text.size() > 60 ? text.substr(0, 60) + "..." : text; }
-
-/// `count` numbers separated by blanks, and nothing else.
-template <std::size_t count>
-std::optional<std::array<double, count>> numbers(std::string_view line) {
-    std::array<double, count> values{};
-    for (auto& value : values) {
-        while (!line.empty() && blank(line.front())) line.remove_prefix(1);
-        const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
-        if (error != std::errc{}) return std::nullopt;
-        line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-        if (!line.empty() && !blank(line.front())) return std::nullopt;
-    }
-    return line.empty() ? std::optional(values) : std::nullopt;
-}
-
-/// Both formats begin alike: comments, perhaps a '*' block up to the next empty line, then "22 landmarks:".
-std::size_t read_count(Lines& lines) {
-    std::string line;
-    while (lines.next_with_text(line)) {
-        if (line.front() == '#') continue;
-        if (line.front() == '*') {
-            while (lines.next(line) && !line.empty()) {
+/// "22 landmarks:" after comments ('#') and a block of free text ('*' up to the next empty line).
+std::size_t read_count(geometry::LineReader& lines) {
+    while (lines.next_not_blank()) {
+        if (lines.line().front() == '#') continue;
+        if (lines.line().front() == '*') {
+            while (lines.next() && !geometry::trimmed(lines.line()).empty()) {
             }
             continue;
         }
-        long long count = -1;
-        const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), count);
-        if (error != std::errc{} ||
-            std::string_view(end, line.data() + line.size()).find("andmarks") == std::string_view::npos)
-            lines.fail(fmt::format(
-                "'{}' stands where the number of landmarks is expected, such as '22 landmarks:'; the file is "
-                "damaged or of another format",
-                shown(line)));
-        if (count < 0 || static_cast<unsigned long long>(count) > max_landmarks)
-            lines.fail(fmt::format("{} landmarks; a face has 0 to {}", count, max_landmarks));
-        return static_cast<std::size_t>(count);
+        std::string_view rest = lines.line();
+        const auto word = geometry::next_word(rest);
+        const auto count = geometry::parse_integer(word);
+        if (!count || !geometry::equal_ignoring_case(geometry::trimmed(rest), "landmarks:"))
+            lines.fail(
+                fmt::format("{} stands where the number of landmarks is expected, such as '22 landmarks:'; the file is "
+                            "damaged or of another format",
+                            geometry::in_quotes(lines.line())));
+        if (*count < 0 || *count > static_cast<std::int64_t>(geometry::most_landmarks))
+            lines.fail(fmt::format("{} landmarks; a face has 0 to {}", *count, geometry::most_landmarks));
+        return static_cast<std::size_t>(*count);
     }
-    lines.fail("no line gives the number of landmarks, such as '22 landmarks:'; the file is empty or truncated");
-}
-
-void expect_end(Lines& lines, std::size_t count) {
-    std::string line;
-    if (lines.next_with_text(line))
-        lines.fail(fmt::format("'{}' follows after all {} landmarks; correct the count", shown(line), count));
+    throw InputError(fmt::format(
+        "{}: no line gives the number of landmarks, such as '22 landmarks:'; the file is empty or truncated",
+        lines.file_name()));
 }
 
 struct Label {
@@ -303,11 +237,9 @@ std::optional<int> first_number_of_68(const geometry::Landmarks& raw) {
     if (raw.size() != 68) return std::nullopt;
     std::array<bool, 69> seen{};
     for (const auto& mark : raw.all()) {
-        int number = -1;
-        const auto* end = mark.name.data() + mark.name.size();
-        const auto parsed = std::from_chars(mark.name.data(), end, number);
-        if (parsed.ec != std::errc{} || parsed.ptr != end || number < 0 || number > 68) return std::nullopt;
-        seen[static_cast<std::size_t>(number)] = true;
+        const auto number = geometry::parse_integer(mark.name);
+        if (!number || *number < 0 || *number > 68) return std::nullopt;
+        seen[static_cast<std::size_t>(*number)] = true;
     }
     // 68 unique numbers out of 0..68: exactly one is missing.
     if (!seen[68]) return 0;
@@ -317,31 +249,7 @@ std::optional<int> first_number_of_68(const geometry::Landmarks& raw) {
 }  // namespace
 
 geometry::Landmarks parse_lm3(std::string_view text, const std::string& name) {
-    Lines lines(text, name);
-    const std::size_t count = read_count(lines);
-    std::vector<geometry::Landmark> marks;
-    std::string label, position;
-    while (marks.size() < count) {
-        if (!lines.next_with_text(label))
-            lines.fail(fmt::format("ends after {} of {} landmarks; the file is truncated: copy it again", marks.size(),
-                                   count));
-        if (!lines.next_with_text(position))
-            lines.fail(
-                fmt::format("ends before the position of '{}'; the file is truncated: copy it again", shown(label)));
-        const auto xyz = numbers<3>(position);
-        if (!xyz || !std::all_of(xyz->begin(), xyz->end(), [](double v) { return std::isfinite(v); }))
-            lines.fail(fmt::format(
-                "'{}' stands where x y z of landmark '{}' are expected; mark it again or delete both lines and "
-                "lower the count",
-                shown(position), shown(label)));
-        marks.push_back({label, {(*xyz)[0], (*xyz)[1], (*xyz)[2]}, label});
-    }
-    expect_end(lines, count);
-    try {
-        return geometry::Landmarks(std::move(marks));
-    } catch (const InputError& e) {
-        throw InputError(fmt::format("{}: {}", name, e.what()));
-    }
+    return geometry::decode_landmarks(geometry::LandmarkFormat::lm3, text, name);
 }
 
 geometry::Landmarks read_lm3(const std::filesystem::path& file) {
@@ -349,46 +257,43 @@ geometry::Landmarks read_lm3(const std::filesystem::path& file) {
 }
 
 void write_lm3(const std::filesystem::path& file, const geometry::Landmarks& bosphorus_labelled) {
-    std::string text =
-        fmt::format("# 3D landmarks in mm, frame of the .bnt scan\n\n{} landmarks:\n", bosphorus_labelled.size());
-    for (const auto& mark : bosphorus_labelled.all())
-        text += fmt::format("{}\n{} {} {}\n", tidied(mark.name), mark.position_mm.x(), mark.position_mm.y(),
-                            mark.position_mm.z());
-    geometry::write_atomically(file, text);
+    geometry::write_atomically(file, geometry::encode_landmarks(geometry::LandmarkFormat::lm3, bosphorus_labelled));
 }
 
 std::vector<ImageLandmark> parse_lm2(std::string_view text, const std::string& name) {
-    Lines lines(text, name);
+    geometry::LineReader lines(text, name);
     const std::size_t count = read_count(lines);
-    const auto expect_heading = [&](std::string_view begin, std::string_view example) {
-        std::string line;
-        if (!lines.next_with_text(line))
-            lines.fail(fmt::format("ends before '{}'; the file is truncated: copy it again", example));
-        if (!as_name(line).starts_with(begin))
-            lines.fail(fmt::format("'{}' stands where '{}' is expected; the count may be wrong", shown(line), example));
+    const auto next = [&](const std::string& what) {
+        if (!lines.next_not_blank())
+            throw InputError(fmt::format("{}: ends before {}; the file is truncated: copy it again", name, what));
+    };
+    const auto expect_heading = [&](std::string_view begin, const std::string& example) {
+        next(example);
+        if (!as_name(lines.line()).starts_with(begin))
+            lines.fail(fmt::format("{} stands where '{}' is expected; the count may be wrong",
+                                   geometry::in_quotes(lines.line()), example));
     };
     std::vector<ImageLandmark> marks;
-    std::string line;
     expect_heading("labels", "Labels:");
     while (marks.size() < count) {
-        if (!lines.next_with_text(line))
-            lines.fail(
-                fmt::format("ends after {} of {} labels; the file is truncated: copy it again", marks.size(), count));
-        marks.push_back({line, 0, 0});
+        next(fmt::format("label {} of {}", marks.size() + 1, count));
+        marks.push_back({std::string(geometry::trimmed(lines.line())), 0, 0});
     }
     expect_heading("2d", "2D Image coordinates:");
     for (auto& mark : marks) {
-        if (!lines.next_with_text(line))
-            lines.fail(fmt::format("ends before the position of '{}'; the file is truncated: copy it again",
-                                   shown(mark.label)));
-        const auto xy = numbers<2>(line);
-        if (!xy || !std::isfinite((*xy)[0]) || !std::isfinite((*xy)[1]))
-            lines.fail(fmt::format("'{}' stands where x y of landmark '{}' are expected; mark it again", shown(line),
-                                   shown(mark.label)));
-        mark.column = (*xy)[0];
-        mark.row = (*xy)[1];
+        next(fmt::format("the position of {}", geometry::in_quotes(mark.label)));
+        std::string_view rest = lines.line();
+        const auto x = geometry::parse_double(geometry::next_word(rest)),
+                   y = geometry::parse_double(geometry::next_word(rest));
+        if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y) || !geometry::trimmed(rest).empty())
+            lines.fail(fmt::format("{} stands where x y of landmark {} are expected; mark it again",
+                                   geometry::in_quotes(lines.line()), geometry::in_quotes(mark.label)));
+        mark.column = *x;
+        mark.row = *y;
     }
-    expect_end(lines, count);
+    if (lines.next_not_blank())
+        lines.fail(fmt::format("{} follows after all {} landmarks; correct the count",
+                               geometry::in_quotes(lines.line()), count));
     return marks;
 }
 
@@ -399,7 +304,7 @@ std::vector<ImageLandmark> read_lm2(const std::filesystem::path& file) {
 void write_lm2(const std::filesystem::path& file, const std::vector<ImageLandmark>& marks) {
     std::string text =
         fmt::format("# 2D landmarks in pixels of the texture image\n\n{} landmarks:\n\nLabels:\n", marks.size());
-    for (const auto& mark : marks) text += tidied(mark.label) + '\n';
+    for (const auto& mark : marks) text += fmt::format("{}\n", geometry::trimmed(mark.label));
     text += "\n2D Image coordinates:\n";
     for (const auto& mark : marks) text += fmt::format("{} {}\n", mark.column, mark.row);
     geometry::write_atomically(file, text);

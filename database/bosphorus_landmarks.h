@@ -9,8 +9,8 @@
 
 namespace mimik::database {
 
-/// .lm3 (mm, the frame of the .bnt): labels as written (blanks collapsed). Landmarks that the marker could not see are
-/// simply absent. @throws InputError naming file and line.
+/// .lm3 (mm, the frame of the .bnt): labels as written. Landmarks that the marker could not see are simply absent.
+/// @throws InputError naming file and line. The geometry layer's reader and writer, whatever the file's extension.
 [[nodiscard]] geometry::Landmarks read_lm3(const std::filesystem::path& file);
 [[nodiscard]] geometry::Landmarks parse_lm3(std::string_view text, const std::string& name);
 /// As the database's own readers expect it: a comment line, an empty line, the count, then label and position in turn.

@@ -6,20 +6,13 @@
 #include <fmt/format.h>
 
 #include "geometry/errors.h"
+#include "geometry/text.h"
 
 namespace mimik::database {
 namespace {
 
-constexpr int max_lines = 100'000;
+constexpr std::size_t max_lines = 100'000;
 constexpr std::size_t max_remarks = 20;
-
-bool blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-    return text;
-}
 
 std::optional<FacsScore> parse_code(std::string_view code) {
     FacsScore score;
@@ -41,7 +34,7 @@ std::optional<std::vector<FacsScore>> parse_codes(std::string_view codes) {
     std::vector<FacsScore> scores;
     while (!codes.empty()) {
         const auto end = codes.find('+');
-        const auto score = parse_code(trimmed(codes.substr(0, end)));
+        const auto score = parse_code(geometry::trimmed(codes.substr(0, end)));
         if (!score) return std::nullopt;
         if (score->action_unit > 0) scores.push_back(*score);
         if (end == std::string_view::npos) return scores;
@@ -55,20 +48,18 @@ std::optional<std::vector<FacsScore>> parse_codes(std::string_view codes) {
 FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
     FacsCodes result;
     std::size_t not_understood = 0;
-    int number = 0;
-    while (!text.empty()) {
-        const auto end = text.find('\n');
-        const auto line = trimmed(text.substr(0, end));
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        if (++number > max_lines)
+    geometry::LineReader lines(text, name);
+    while (lines.next()) {
+        if (lines.number() > max_lines)
             throw InputError(fmt::format("{}: more than {} lines; is it the right file?", name, max_lines));
+        const auto line = geometry::trimmed(lines.line());
         const auto arrow = line.find("->");
-        if (line.empty() || (arrow == std::string_view::npos && number <= 2)) continue;  // the two header lines
+        if (line.empty() || (arrow == std::string_view::npos && lines.number() <= 2)) continue;  // the two header lines
         if (arrow != std::string_view::npos) {
-            auto scan = trimmed(line.substr(0, arrow));
+            auto scan = geometry::trimmed(line.substr(0, arrow));
             scan = scan.substr(0, scan.find('.'));  // some lists name the file
             const auto id = parse_scan_name(scan);
-            const auto scores = parse_codes(trimmed(line.substr(arrow + 2)));
+            const auto scores = parse_codes(geometry::trimmed(line.substr(arrow + 2)));
             if (id && scores) {
                 result.scores[*id] = *scores;
                 continue;
@@ -76,8 +67,8 @@ FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
         }
         if (not_understood++ < max_remarks)
             result.remarks.push_back(
-                fmt::format("{}:{}: '{}' is not of the form 'bs000_LFAU_12_0 -> 6B+12C'; the line is left out", name,
-                            number, line.substr(0, 60)));
+                fmt::format("{}: line {}: {} is not of the form 'bs000_LFAU_12_0 -> 6B+12C'; the line is left out",
+                            name, lines.number(), geometry::in_quotes(line)));
     }
     if (not_understood > 0 && result.scores.empty())
         throw InputError(

@@ -1,6 +1,7 @@
 #include "database/scan_database.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <system_error>
@@ -9,8 +10,12 @@
 #include <fmt/format.h>
 
 #include "database/bnt.h"
+#include "database/manifest.h"
+#include "geometry/csv.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/landmark_io.h"
+#include "geometry/text.h"
 
 namespace mimik::database {
 namespace {
@@ -19,13 +24,9 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t max_list_bytes = 16 << 20;  // facscodes.lst of the whole database has 0.2 MB
 
-std::string lower_case(std::string_view text) {
-    std::string result(text);
-    for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return result;
-}
+using geometry::lower_case;
 
-bool same(std::string_view a, std::string_view b) { return lower_case(a) == lower_case(b); }
+bool same(std::string_view a, std::string_view b) { return geometry::equal_ignoring_case(a, b); }
 
 /// Names and kinds of what is in a folder, in the order of their names: the order of a folder is nobody's promise.
 std::vector<fs::path> listing(const fs::path& folder, std::vector<std::string>& remarks) {
@@ -40,15 +41,35 @@ std::vector<fs::path> listing(const fs::path& folder, std::vector<std::string>& 
     return entries;
 }
 
+/// The name without its extension, ".mrk.json" taken as one.
+std::string stem_of(const fs::path& file) {
+    const std::string name = file.filename().string();
+    constexpr std::string_view markups = ".mrk.json";
+    if (lower_case(name).ends_with(markups)) return name.substr(0, name.size() - markups.size());
+    return file.stem().string();
+}
+
+/// Where an extension stands among those that may hold the same thing, the one that is preferred first.
+std::size_t rank(const std::vector<std::string_view>& extensions, const fs::path& file) {
+    std::string extension = lower_case(file.extension().string());
+    if (extension == ".json" && stem_of(file) != file.stem()) extension = ".mrk.json";
+    return static_cast<std::size_t>(std::find(extensions.begin(), extensions.end(), extension) - extensions.begin());
+}
+
 /// Adds the scans of one folder.
 void add_scans(const fs::path& folder, const std::vector<fs::path>& entries, ScanDatabase& database) {
+    static const std::vector<std::string_view> scans = {".bnt", ".ply", ".pcd", ".obj", ".stl"};
+    static const std::vector<std::string_view> landmarks = {".lm3", ".pp", ".fcsv", ".mrk.json", ".csv"};
+    const auto prefer = [](fs::path& kept, const fs::path& candidate, const std::vector<std::string_view>& extensions) {
+        const auto place = rank(extensions, candidate);
+        if (place < extensions.size() && (kept.empty() || place < rank(extensions, kept))) kept = candidate;
+    };
     std::map<std::string, ScanEntry> found;
     for (const auto& path : entries) {
+        ScanEntry& entry = found[stem_of(path)];
         const std::string extension = lower_case(path.extension().string());
-        const std::string stem = path.stem().string();
-        ScanEntry& entry = found[stem];
-        if (extension == ".bnt") entry.scan_file = path;
-        if (extension == ".lm3") entry.landmarks_file = path;
+        prefer(entry.scan_file, path, scans);
+        prefer(entry.landmarks_file, path, landmarks);
         if (extension == ".lm2") entry.landmarks2d_file = path;
         if (extension == ".png") entry.texture_file = path;
     }
@@ -142,6 +163,16 @@ void read_lists(ScanDatabase& database) {
             }
         }
     }
+    if (const auto file = first_file(database.root, {"subjects.csv"}); !file.empty()) {
+        const std::string text = geometry::read_text(file, max_list_bytes);
+        geometry::CsvReader rows(text, file.string());
+        const auto subject = rows.column("subject"), sex = rows.column("sex");
+        std::map<std::string, std::string> sexes;
+        while (rows.next()) sexes[lower_case(rows.field(subject))] = parse_sex(rows, rows.field(sex));
+        for (auto& entry : database.scans)
+            if (const auto it = sexes.find(lower_case(entry.id.subject)); it != sexes.end() && entry.sex.empty())
+                entry.sex = it->second;
+    }
     if (const auto file = first_file(database.root, {"unallowed_subjects.txt"}); !file.empty())
         database.hidden_subjects =
             parse_hidden_subjects(geometry::read_text(file, max_list_bytes), file.string(), database, database.remarks);
@@ -185,8 +216,55 @@ void decide_code_sides(ScanDatabase& database) {
                                   : "12L in file names is taken as the subject's left"));
 }
 
+/// Texture coordinates per vertex; where a seam gives a vertex several, the first face's.
+std::vector<geometry::TextureCoordinate> texture_per_vertex(const geometry::Mesh& mesh) {
+    if (mesh.faces.texture_corners.empty() || mesh.texture_coordinates.empty()) return mesh.texture_coordinates;
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    std::vector<geometry::TextureCoordinate> result(mesh.vertices_mm.size(), {nothing, nothing});
+    for (std::size_t k = 0; k < mesh.faces.corners.size(); ++k)
+        if (auto& texture = result[mesh.faces.corners[k]]; !texture.allFinite())
+            texture = mesh.texture_coordinates[mesh.faces.texture_corners[k]];
+    return result;
+}
+
+/// A lattice may begin at any corner; ours begins at the lowest row and runs to the subject's left.
+void orient_lattice(geometry::RangeScan& scan) {
+    const auto found = frame_correlations(scan);
+    const auto rows = static_cast<std::size_t>(scan.rows), cols = static_cast<std::size_t>(scan.cols);
+    const auto reorder = [&](auto& values) {
+        if (values.empty()) return;
+        for (std::size_t row = 0; found.x_column && *found.x_column < 0 && row < rows; ++row)
+            std::reverse(values.begin() + static_cast<std::ptrdiff_t>(row * cols),
+                         values.begin() + static_cast<std::ptrdiff_t>((row + 1) * cols));
+        for (std::size_t row = 0; found.y_row && *found.y_row < 0 && row < rows / 2; ++row)
+            std::swap_ranges(values.begin() + static_cast<std::ptrdiff_t>(row * cols),
+                             values.begin() + static_cast<std::ptrdiff_t>((row + 1) * cols),
+                             values.begin() + static_cast<std::ptrdiff_t>((rows - 1 - row) * cols));
+    };
+    reorder(scan.points_mm);
+    reorder(scan.texture_coordinates);
+}
+
 geometry::RangeScan read_scan(const ScanEntry& entry) {
-    return to_range_scan(read_bnt(entry.scan_file), entry.scan_file.string());
+    geometry::RangeScan scan;
+    if (same(entry.scan_file.extension().string(), ".bnt")) {
+        scan = to_range_scan(read_bnt(entry.scan_file), entry.scan_file.string());
+        if (const double scale = geometry::millimetres_per(entry.unit); scale != 1)
+            for (auto& p : scan.points_mm) p *= scale;
+        return scan;
+    }
+    auto file = geometry::read_mesh_file(entry.scan_file, entry.unit);
+    scan.texture_coordinates = texture_per_vertex(file.mesh);
+    scan.points_mm = std::move(file.mesh.vertices_mm);
+    scan.texture_file = std::move(file.texture_file);
+    if (file.rows > 1) {
+        scan.rows = file.rows;
+        scan.cols = file.cols;
+        orient_lattice(scan);
+    } else {
+        scan.faces = std::move(file.mesh.faces);
+    }
+    return scan;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -207,7 +285,44 @@ void check_frame(const FrameCorrelations& correlations, std::vector<std::string>
     expect_positive(correlations.x_column, "x falls as the column grows");
 }
 
+/// Finds the image, compares it with the landmarks' pixels, turns texture coordinates that lie otherwise.
+void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& nearest) {
+    ScanEntry& entry = loaded.entry;
+    std::error_code ignored;
+    if (const auto& named = loaded.scan.texture_file; !named.empty()) {
+        const auto beside = entry.scan_file.parent_path() / named;
+        if (fs::is_regular_file(beside, ignored))
+            entry.texture_file = beside;
+        else if (entry.texture_file.empty())
+            loaded.remarks.push_back(fmt::format("its texture image '{}' is not beside it", named));
+    }
+    if (entry.texture_file.empty() || entry.landmarks2d_file.empty()) return;
+    try {
+        const auto marks = read_lm2(entry.landmarks2d_file);
+        const auto size = geometry::png_size(entry.texture_file);
+        loaded.checks.texture = texture_orientation(loaded.scan, loaded.landmarks, nearest, marks, size);
+    } catch (const InputError& e) {
+        loaded.remarks.emplace_back(e.what());  // the surface can be used without its picture
+        return;
+    }
+    const auto& found = loaded.checks.texture;
+    if (!found || found->as_expected()) return;
+    if (!found->fits) {
+        loaded.remarks.push_back(
+            fmt::format("the texture image does not fit the scan: landmarks are off by {:.0f} pixels at best",
+                        *std::min_element(found->median_error_px.begin(), found->median_error_px.end())));
+        return;
+    }
+    reorient_texture(loaded.scan, found->best);
+    loaded.remarks.push_back(fmt::format("texture coordinates lie {} and were turned", to_string(found->best)));
+}
+
 }  // namespace
+
+std::optional<geometry::Image> load_texture(const ScanEntry& entry) {
+    if (entry.texture_file.empty()) return std::nullopt;
+    return geometry::read_png(entry.texture_file);
+}
 
 std::vector<std::string> ScanDatabase::subjects() const {
     std::vector<std::string> names;
@@ -242,12 +357,25 @@ ScanDatabase open_database(const std::filesystem::path& root) {
     database.root = fs::canonical(root, error);
     if (error) throw InputError(fmt::format("{}: cannot be opened ({})", root.string(), error.message()));
 
+    if (const auto file = first_file(database.root, {"manifest.csv"}); !file.empty()) {
+        auto manifest = parse_manifest(geometry::read_text(file, max_list_bytes), file);
+        database.layout = DatabaseLayout::manifest;
+        database.scans = std::move(manifest.scans);
+        std::move(manifest.remarks.begin(), manifest.remarks.end(), std::back_inserter(database.remarks));
+        if (database.scans.empty())
+            throw InputError(fmt::format("{}: lists no scan; add one line per scan", file.string()));
+        std::stable_sort(database.scans.begin(), database.scans.end(),
+                         [](const auto& a, const auto& b) { return a.id < b.id; });
+        read_lists(database);
+        return database;
+    }
     const auto entries = listing(database.root, database.remarks);
     add_scans(database.root, entries, database);
     for (const auto& entry : entries)
         if (fs::is_directory(entry, error)) add_scans(entry, listing(entry, database.remarks), database);
     if (database.scans.empty())
-        throw InputError(fmt::format("{}: no scan found; expected bs000/bs000_N_N_0.bnt and so on{}", root.string(),
+        throw InputError(fmt::format("{}: no scan found; expected bs000/bs000_N_N_0.bnt and so on, or manifest.csv{}",
+                                     root.string(),
                                      database.remarks.empty() ? "" : " (" + database.remarks.front() + ")"));
     std::stable_sort(database.scans.begin(), database.scans.end(),
                      [](const auto& a, const auto& b) { return a.id < b.id; });
@@ -307,7 +435,10 @@ LoadedScan load(const ScanEntry& entry) {
     if (entry.landmarks_file.empty()) {
         loaded.remarks.push_back("there is no landmark file beside the scan");
     } else {
-        loaded.landmarks = from_bosphorus_labels(read_lm3(entry.landmarks_file), &loaded.checks.sides);
+        const auto raw = geometry::read_landmarks(entry.landmarks_file, loaded.scan.points_mm, entry.unit);
+        const bool bosphorus = same(entry.landmarks_file.extension().string(), ".lm3");
+        loaded.landmarks =
+            bosphorus ? from_bosphorus_labels(raw, &loaded.checks.sides) : from_any_labels(raw, &loaded.checks.sides);
     }
     if (!loaded.checks.sides.swapped_pairs.empty())
         loaded.remarks.push_back(fmt::format("left and right labels are swapped against the rest: {}",
@@ -320,6 +451,7 @@ LoadedScan load(const ScanEntry& entry) {
             loaded.checks.landmark_off_scan = loaded.landmarks.all()[m].name;
         }
 
+    check_texture(loaded, nearest);
     loaded.checks.correlations = frame_correlations(loaded.scan);
     check_frame(loaded.checks.correlations, loaded.remarks);
     return loaded;

@@ -4,15 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/text.h"
 #include "geometry/types.h"
 
 namespace mimik::database {
 namespace {
-
-bool same_label(std::string_view a, std::string_view b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
-}
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -106,8 +102,10 @@ std::optional<TextureOrientation> texture_orientation(const geometry::RangeScan&
     for (std::size_t m = 0; m < landmarks.size(); ++m) {
         const auto& mark = landmarks.all()[m];
         const std::string& label = mark.original_label.empty() ? mark.name : mark.original_label;
-        const auto partner = std::find_if(image_landmarks.begin(), image_landmarks.end(),
-                                          [&](const ImageLandmark& other) { return same_label(other.label, label); });
+        const auto partner =
+            std::find_if(image_landmarks.begin(), image_landmarks.end(), [&](const ImageLandmark& other) {
+                return geometry::equal_ignoring_case(geometry::trimmed(other.label), geometry::trimmed(label));
+            });
         if (partner == image_landmarks.end()) continue;
         if (!std::isfinite(nearest[m].distance_mm)) continue;
         const auto& texture = scan.texture_coordinates[nearest[m].index];

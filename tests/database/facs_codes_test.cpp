@@ -28,7 +28,7 @@ TEST(FacsCodes, a_line_that_is_not_understood_is_remarked_with_its_number) {
     const auto codes = parse_facs_codes("a\nb\nbs003_N_N_0 -> 0\nbs003_E_FEAR_0 -> 1+F2\n", "list");
     EXPECT_EQ(codes.scores.size(), 1U);
     ASSERT_EQ(codes.remarks.size(), 1U);
-    EXPECT_THAT(codes.remarks[0], HasSubstr("list:4: 'bs003_E_FEAR_0 -> 1+F2'"));
+    EXPECT_THAT(codes.remarks[0], HasSubstr("list: line 4: 'bs003_E_FEAR_0 -> 1+F2'"));
 }
 
 TEST(FacsCodes, another_file_is_refused_by_name) {

@@ -2,14 +2,17 @@
 
 #include <cmath>
 
+#include "geometry/image.h"
+
 namespace mimik::database {
 namespace {
 
 constexpr int rows = 81, cols = 61;
 constexpr double spacing_mm = 2.0;
 
+// Not symmetric top to bottom: turned by 180 degrees about z it must not lie on itself.
 double height_mm(double x, double y) {
-    const double dome = 60 * (1 - (x / 75) * (x / 75) - (y / 110) * (y / 110));
+    const double dome = 60 * (1 - (x / 75) * (x / 75) - ((y + 20) / 110) * ((y + 20) / 110));
     return dome + 18 * std::exp(-(x * x) / 128 - (y * y) / 288);  // the nose: 18 mm high at the origin
 }
 
@@ -71,6 +74,10 @@ void write_scan(const std::filesystem::path& root, const std::string& name, cons
     MadeFace named = face;
     if (named.scan.texture_file.empty()) named.scan.texture_file = name + ".png";
     write_bnt(folder / (name + ".bnt"), to_bnt(named.scan));
+    const geometry::Image grey{
+        face.image_size, face.image_size,
+        std::vector<std::uint8_t>(3 * static_cast<std::size_t>(face.image_size * face.image_size), 128)};
+    geometry::write_png(folder / (name + ".png"), grey);
     write_lm3(folder / (name + ".lm3"), to_bosphorus_labels(face.landmarks));
     write_lm2(folder / (name + ".lm2"), face.image_landmarks);
 }

@@ -26,7 +26,7 @@ struct MadeFace {
 [[nodiscard]] geometry::Landmarks moved(const geometry::Landmarks& landmarks,
                                         const std::map<std::string, geometry::Vector>& by_mm);
 
-/// Writes .bnt, .lm3 and .lm2 as <root>/<subject>/<name>.*; no texture image.
+/// Writes .bnt, .lm3, .lm2 and a grey .png as <root>/<subject>/<name>.*.
 void write_scan(const std::filesystem::path& root, const std::string& name, const MadeFace& face);
 
 }  // namespace mimik::database

@@ -170,6 +170,39 @@ TEST(Load, a_scan_comes_with_its_landmarks_on_the_subjects_own_side) {
     EXPECT_THAT(loaded.remarks, IsEmpty());
 }
 
+TEST(Load, the_texture_is_checked_against_the_landmarks_and_turned_if_it_lies_otherwise) {
+    const TemporaryFolder folder;
+    auto face = make_face();
+    const auto right = face.scan.texture_coordinates;
+    for (auto& t : face.scan.texture_coordinates) t.y() = 1 - t.y();
+    write_scan(folder.path(), "bs000_N_N_0", face);
+    const auto loaded = load(open_database(folder.path()).scans[0]);
+    ASSERT_TRUE(loaded.checks.texture);
+    EXPECT_EQ(loaded.checks.texture->best, TextureAxes::u_right_v_down);
+    EXPECT_THAT(loaded.remarks,
+                ElementsAre(HasSubstr("texture coordinates lie u to the right, v down and were turned")));
+    for (std::size_t i = 0; i < right.size(); ++i)
+        ASSERT_LT((loaded.scan.texture_coordinates[i] - right[i]).norm(), 1e-12);  // 1 - (1 - v)
+    EXPECT_EQ(load_texture(loaded.entry)->width, 100);
+}
+
+TEST(Load, a_missing_texture_is_remarked_by_name) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    std::filesystem::remove(folder.path() / "bs000/bs000_N_N_0.png");
+    const auto loaded = load(open_database(folder.path()).scans[0]);
+    EXPECT_THAT(loaded.remarks, ElementsAre(HasSubstr("'bs000_N_N_0.png' is not beside it")));
+    EXPECT_FALSE(load_texture(loaded.entry));
+}
+
+TEST(Load, bad_pixel_landmarks_do_not_forbid_the_scan) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm2", "# x\n");
+    EXPECT_THAT(load(open_database(folder.path()).scans[0]).remarks,
+                ElementsAre(HasSubstr("bs000_N_N_0.lm2: no line gives")));
+}
+
 TEST(Load, many_threads_read_the_same) {
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_N_N_0", make_face());

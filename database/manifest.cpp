@@ -1,0 +1,96 @@
+#include "database/manifest.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "geometry/csv.h"
+#include "geometry/errors.h"
+#include "geometry/text.h"
+
+namespace mimik::database {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t max_scans = 1'000'000;
+
+/// A path of the manifest, absolute. It must not lead out of the manifest's folder: a database that was downloaded
+/// shall not reach other files.
+fs::path inside(const geometry::CsvReader& rows, const std::string& value, const fs::path& folder, const char* column) {
+    const fs::path path = fs::path(value).lexically_normal();
+    if (path.is_absolute() || path.empty() || *path.begin() == "..")
+        rows.fail(fmt::format("{} {} leads out of the manifest's folder; copy or link the file into it", column,
+                              geometry::in_quotes(value)));
+    return folder / path;
+}
+
+/// Letters, digits and '-': a subject's name becomes part of file names.
+std::string subject_name(const geometry::CsvReader& rows, const std::string& value) {
+    std::string name;
+    for (const char c : value) {
+        const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
+                           c == '.' || static_cast<unsigned char>(c) >= 0x80;
+        if (!plain && c != ' ' && c != '_')
+            rows.fail(fmt::format("subject {} has a character that file names cannot hold; use letters, digits and '-'",
+                                  geometry::in_quotes(value)));
+        name += plain ? c : '-';
+    }
+    if (name.empty() || name.size() > 100 || name.front() == '.')
+        rows.fail(
+            fmt::format("subject {} is no name; give 1 to 100 letters, digits or '-'", geometry::in_quotes(value)));
+    return name;
+}
+
+}  // namespace
+
+std::string parse_sex(const geometry::CsvReader& rows, const std::string& value) {
+    const std::string word = geometry::lower_case(value);
+    if (word.empty() || word == "m" || word == "f") return word;
+    if (word == "male" || word == "man") return "m";
+    if (word == "female" || word == "woman") return "f";
+    rows.fail(fmt::format("sex is {}; give m, f or nothing", geometry::in_quotes(value)));
+}
+
+Manifest parse_manifest(std::string_view text, const fs::path& file) {
+    geometry::CsvReader rows(text, file.string());
+    const auto subject = rows.column("subject"), expression = rows.column("expression"), scan = rows.column("scan");
+    const auto landmarks = rows.find_column("landmarks"), sex = rows.find_column("sex"),
+               unit = rows.find_column("unit");
+    const fs::path folder = file.parent_path();
+    Manifest manifest;
+    std::map<ScanId, int> repetitions;
+    while (rows.next()) {
+        if (manifest.scans.size() == max_scans)
+            rows.fail(fmt::format("more than {} scans; split the database", max_scans));
+        ScanEntry entry;
+        const auto id = parse_expression(rows.field(expression));
+        if (!id) rows.fail("expression is empty; give N, AU12, 12L, HAPPY or the like");
+        entry.id = *id;
+        entry.id.subject = subject_name(rows, rows.field(subject));
+        if (entry.id.subject != rows.field(subject))
+            manifest.remarks.push_back(fmt::format("{}: subject {} is called '{}'", file.string(),
+                                                   geometry::in_quotes(rows.field(subject)), entry.id.subject));
+        if (entry.id.group == "OTHER")
+            manifest.remarks.push_back(fmt::format("{}: expression {} is none that Mimik knows; it is kept as {}",
+                                                   file.string(), geometry::in_quotes(rows.field(expression)),
+                                                   entry.id.expression()));
+        if (rows.field(scan).empty()) rows.fail("scan is empty; name the file");
+        entry.scan_file = inside(rows, rows.field(scan), folder, "scan");
+        entry.file_name_stem = entry.scan_file.stem().string();
+        if (landmarks && !rows.field(*landmarks).empty())
+            entry.landmarks_file = inside(rows, rows.field(*landmarks), folder, "landmarks");
+        if (sex) entry.sex = parse_sex(rows, rows.field(*sex));
+        try {
+            if (unit && !rows.field(*unit).empty()) entry.unit = geometry::parse_length_unit(rows.field(*unit));
+        } catch (const InputError& e) {
+            rows.fail(e.what());
+        }
+        entry.id.repetition = repetitions[entry.id]++;
+        manifest.scans.push_back(std::move(entry));
+    }
+    return manifest;
+}
+
+}  // namespace mimik::database

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "database/scan_database.h"
+#include "geometry/csv.h"
+
+namespace mimik::database {
+
+/// manifest.csv: one scan a line under the header
+///   subject,expression,scan,landmarks,sex,unit        (any order; `subject`, `expression` and `scan` must be there)
+/// `scan` and `landmarks` are paths relative to the manifest, inside its folder; `expression` is what
+/// parse_expression() reads, sides the subject's own; `sex` is m, f or empty; `unit` is mm (also when empty), cm or m.
+/// Scans of one subject and expression are numbered in the order of the file. Blanks and '_' in subject names become
+/// '-'.
+struct Manifest {
+    std::vector<ScanEntry> scans;      ///< in the order of the file, paths absolute
+    std::vector<std::string> remarks;  ///< renamed subjects, expressions that are none of the known ones
+};
+/// @throws InputError naming line, column, value and mend.
+[[nodiscard]] Manifest parse_manifest(std::string_view text, const std::filesystem::path& file);
+
+/// "m", "f" or empty from one field of a table; also the words. @throws InputError naming line and value.
+[[nodiscard]] std::string parse_sex(const geometry::CsvReader& rows, const std::string& value);
+
+}  // namespace mimik::database

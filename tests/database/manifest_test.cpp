@@ -1,0 +1,133 @@
+#include "database/manifest.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/landmark_io.h"
+#include "tests/database/made_face.h"
+#include "tests/database/temporary_folder.h"
+
+namespace mimik::database {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::string manifest_error(const std::string& text) {
+    return message_of<InputError>([&] { (void)parse_manifest(text, "/data/manifest.csv"); });
+}
+
+TEST(Manifest, a_line_gives_a_scan_with_absolute_paths_and_a_unit) {
+    const auto manifest =
+        parse_manifest("unit,sex,landmarks,scan,expression,subject\ncm,F,a/x.pp,a/x.ply,12L,S1\n,,,b.obj,N,S1\n",
+                       "/data/manifest.csv");
+    ASSERT_EQ(manifest.scans.size(), 2U);
+    const auto& smile = manifest.scans[0];
+    EXPECT_EQ(smile.id.name(), "S1_LFAU_12L_0");
+    EXPECT_EQ(smile.scan_file, "/data/a/x.ply");
+    EXPECT_EQ(smile.landmarks_file, "/data/a/x.pp");
+    EXPECT_EQ(smile.unit, geometry::LengthUnit::centimetre);
+    EXPECT_EQ(smile.sex, "f");
+    EXPECT_EQ(manifest.scans[1].unit, geometry::LengthUnit::millimetre);
+    EXPECT_TRUE(manifest.scans[1].landmarks_file.empty());
+    EXPECT_THAT(manifest.remarks, IsEmpty());
+}
+
+TEST(Manifest, scans_of_one_subject_and_expression_are_numbered_in_order) {
+    const auto manifest = parse_manifest("subject,expression,scan\nA,N,1.ply\nA,neutral,2.ply\nB,N,3.ply\n", "m.csv");
+    EXPECT_EQ(manifest.scans[0].id.repetition, 0);
+    EXPECT_EQ(manifest.scans[1].id.repetition, 1);
+    EXPECT_EQ(manifest.scans[2].id.repetition, 0);
+}
+
+TEST(Manifest, names_that_would_break_file_names_are_changed_or_refused) {
+    const auto manifest = parse_manifest("subject,expression,scan\nJane_D,grin,1.ply\n", "m.csv");
+    EXPECT_EQ(manifest.scans[0].id.name(), "Jane-D_OTHER_GRIN_0");
+    EXPECT_THAT(manifest.remarks,
+                ElementsAre(HasSubstr("subject 'Jane_D' is called 'Jane-D'"), HasSubstr("expression 'grin' is none")));
+    EXPECT_THAT(manifest_error("subject,expression,scan\n../x,N,1.ply\n"), HasSubstr("subject '../x'"));
+}
+
+TEST(Manifest, paths_that_leave_the_folder_are_refused_with_line_and_value) {
+    EXPECT_THAT(manifest_error("subject,expression,scan\nA,N,../secret.ply\n"),
+                HasSubstr("line 2: scan '../secret.ply' leads out"));
+    EXPECT_THAT(manifest_error("subject,expression,scan\nA,N,a/../../secret.ply\n"), HasSubstr("leads out"));
+    EXPECT_THAT(manifest_error("subject,expression,scan\nA,N,/etc/passwd\n"), HasSubstr("leads out"));
+    EXPECT_THAT(manifest_error("subject,expression,scan,landmarks\nA,N,a.ply,../b.pp\n"),
+                HasSubstr("landmarks '../b.pp' leads out"));
+}
+
+TEST(Manifest, bad_fields_are_named_with_line_and_value) {
+    EXPECT_THAT(manifest_error("subject,scan\nA,a.ply\n"), HasSubstr("expression"));
+    EXPECT_THAT(manifest_error("subject,expression,scan\nA,,a.ply\n"), HasSubstr("line 2: expression is empty"));
+    EXPECT_THAT(manifest_error("subject,expression,scan\nA,N,\n"), HasSubstr("line 2: scan is empty"));
+    EXPECT_THAT(manifest_error("subject,expression,scan,sex\nA,N,a.ply,x\n"), HasSubstr("line 2: sex is 'x'"));
+    EXPECT_THAT(manifest_error("subject,expression,scan,unit\nA,N,a.ply,feet\n"),
+                testing::AllOf(HasSubstr("line 2"), HasSubstr("feet")));
+}
+
+/// A folder with one PLY in centimetres, landmarks in `landmark_file`.
+ScanDatabase ply_database(const TemporaryFolder& folder, const std::string& landmark_file,
+                          const geometry::Landmarks& landmarks_cm) {
+    const auto face = make_face();
+    geometry::Mesh mesh;
+    for (const auto& p : face.scan.points_mm) mesh.vertices_mm.push_back(p / 10);
+    for (int row = 0; row + 1 < face.scan.rows; ++row)
+        for (int col = 0; col + 1 < face.scan.cols; ++col) {
+            const auto a = static_cast<std::uint32_t>(row * face.scan.cols + col),
+                       up = a + static_cast<std::uint32_t>(face.scan.cols);
+            mesh.faces.add(std::array{a, a + 1, up + 1, up});
+        }
+    geometry::write_mesh(folder.path() / "anna.ply", mesh);
+    geometry::write_landmarks(folder.path() / landmark_file, landmarks_cm);
+    geometry::write_atomically(
+        folder.path() / "manifest.csv",
+        "subject,expression,scan,landmarks,sex,unit\nanna,neutral,anna.ply," + landmark_file + ",f,cm\n");
+    return open_database(folder.path());
+}
+
+class LandmarkFile : public testing::TestWithParam<const char*> {};
+
+TEST_P(LandmarkFile, of_a_ply_scan_in_centimetres_comes_out_in_millimetres_under_our_names) {
+    const TemporaryFolder folder;
+    const auto face = make_face();
+    geometry::Transform to_cm = geometry::Transform::Identity();
+    if (!std::string(GetParam()).ends_with(".mrk.json"))
+        to_cm.linear() *= 0.1;  // that format states millimetres itself
+    const std::string file = GetParam();
+    const bool bosphorus = file.ends_with(".lm3");
+    const auto database = ply_database(
+        folder, file, transformed(bosphorus ? to_bosphorus_labels(face.landmarks) : face.landmarks, to_cm));
+    EXPECT_EQ(database.layout, DatabaseLayout::manifest);
+    const auto loaded = load(database.scans.at(0));
+    ASSERT_EQ(loaded.scan.points_mm.size(), face.scan.points_mm.size());
+    // Two roundings, divided by 10 and multiplied again, of values up to 80 mm; .fcsv and .mrk.json keep all digits.
+    EXPECT_LT((loaded.scan.points_mm[100] - face.scan.points_mm[100]).norm(), 1e-12);
+    for (const auto& mark : face.landmarks.all())
+        EXPECT_LT((loaded.landmarks.position_mm(mark.name) - mark.position_mm).norm(), 1e-12) << mark.name;
+    EXPECT_GT(loaded.scan.faces.size(), 0U);
+    EXPECT_FALSE(loaded.scan.organised());
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, LandmarkFile,
+                         testing::Values("anna.csv", "anna.pp", "anna.fcsv", "anna.mrk.json", "anna.lm3"));
+
+TEST(Manifest, a_list_without_a_scan_is_refused) {
+    const TemporaryFolder folder;
+    geometry::write_atomically(folder.path() / "manifest.csv", "subject,expression,scan\n");
+    EXPECT_THAT(message_of<InputError>([&] { (void)open_database(folder.path()); }),
+                HasSubstr("manifest.csv: lists no scan"));
+}
+
+TEST(SubjectTable, gives_the_sex_in_a_bosphorus_layout) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    geometry::write_atomically(folder.path() / "subjects.csv", "subject,sex,age\nBS000,female,30\n");
+    EXPECT_EQ(open_database(folder.path()).scans[0].sex, "f");
+}
+
+}  // namespace
+}  // namespace mimik::database
