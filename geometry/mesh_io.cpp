@@ -7,7 +7,10 @@
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/formats/obj.h"
+#include "geometry/formats/pcd.h"
 #include "geometry/formats/ply.h"
+#include "geometry/formats/stl.h"
+#include "geometry/formats/vtp.h"
 #include "geometry/text.h"
 
 namespace mimik::geometry {
@@ -134,9 +137,19 @@ std::string checked_texture_name(const std::string& texture, const std::string& 
 
 MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name, LengthUnit unit) {
     auto file = [&] {
-        if (format == MeshFormat::ply) return formats::decode_ply(bytes, name);
-        if (format == MeshFormat::obj) return formats::decode_obj(bytes, name);
-        throw InputError(fmt::format("{}: this version reads PLY and OBJ", name));
+        switch (format) {
+            case MeshFormat::ply:
+                return formats::decode_ply(bytes, name);
+            case MeshFormat::obj:
+                return formats::decode_obj(bytes, name);
+            case MeshFormat::stl:
+                return formats::decode_stl(bytes, name);
+            case MeshFormat::pcd:
+                return formats::decode_pcd(bytes, name);
+            case MeshFormat::vtp:
+                break;
+        }
+        return formats::decode_vtp(bytes, name);
     }();
     scale_lengths(file, unit);
     check_vertices(file, format, name);
@@ -192,9 +205,16 @@ void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const MeshW
             write_atomically(file, [&](std::ostream& out) { formats::encode_obj(out, mesh, material); });
             return;
         }
-        default:
+        case MeshFormat::stl:
+            write_atomically(file, [&](std::ostream& out) { formats::encode_stl(out, mesh, checked, file.string()); });
+            return;
+        case MeshFormat::vtp:
+            write_atomically(file, [&](std::ostream& out) { formats::encode_vtp(out, mesh); });
+            return;
+        case MeshFormat::pcd:
             break;
     }
+    throw InputError(fmt::format("{}: .pcd is read but not written; write .ply, .obj, .stl or .vtp", file.string()));
 }
 
 }  // namespace mimik::geometry

@@ -44,7 +44,7 @@ struct MeshFile {
 
 struct MeshWriteOptions {
     std::string texture_file;  ///< image beside the mesh, named in OBJ's MTL and PLY's comment; empty: none
-    bool binary = true;        ///< PLY, STL and VTP; false: readable text
+    bool binary = true;        ///< PLY and STL; false: readable text
 };
 
 /// PLY (double precision, attributes as extra properties), OBJ (17 digits), STL (single precision, triangles), VTP
