@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     int exit_code = mimik::cli::exit_done;
     mimik::cli::add_distance_command(app, exit_code);
+    mimik::cli::add_warp_command(app, exit_code);
 
     try {
         app.parse(argc, argv);

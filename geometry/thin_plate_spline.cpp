@@ -95,14 +95,18 @@ std::optional<ClosePair> closest_pair(std::span<const Point> points_mm, double b
     return closest;
 }
 
-void check_spread(std::span<const Point> source_mm, const Point& centre_mm, const ThinPlateSplineOptions& options,
-                  std::span<const std::string> names) {
-    if (const auto pair = closest_pair(source_mm, options.min_separation_mm))
-        throw NumericalError(
-            fmt::format("thin-plate spline: the source points {} and {} lie {:.3g} mm apart (least allowed: "
-                        "{:.3g} mm); leave one of the two out",
-                        point_name(names, pair->first), point_name(names, pair->second), pair->distance_mm,
-                        options.min_separation_mm));
+/// What double precision cannot tell from a plane or a point is refused whatever the options say.
+constexpr double thinnest_ratio = 1e-12;
+
+void check_spread(std::span<const Point> source_mm, const Point& centre_mm, double radius_mm,
+                  const ThinPlateSplineOptions& options, std::span<const std::string> names) {
+    const double least_separation_mm = std::max(options.min_separation_mm, std::numeric_limits<double>::min());
+    const double least_thickness_mm = std::max(options.min_thickness_mm, thinnest_ratio * radius_mm);
+    if (const auto pair = closest_pair(source_mm, least_separation_mm))
+        throw NumericalError(fmt::format(
+            "thin-plate spline: the source points {} and {} lie {:.3g} mm apart (least allowed: {:.3g} mm); "
+            "leave one of the two out",
+            point_name(names, pair->first), point_name(names, pair->second), pair->distance_mm, least_separation_mm));
     Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
     for (const auto& s : source_mm) scatter += (s - centre_mm) * (s - centre_mm).transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
@@ -113,17 +117,17 @@ void check_spread(std::span<const Point> source_mm, const Point& centre_mm, cons
         off_plane_mm = std::max(off_plane_mm, std::abs(normal.dot(s - centre_mm)));
         off_line_mm = std::max(off_line_mm, along.cross(s - centre_mm).norm());
     }
-    if (off_line_mm < options.min_thickness_mm)
-        throw NumericalError(fmt::format(
-            "thin-plate spline: all {} source points ({}) lie within {:.3g} mm of one line "
-            "(least allowed: {:.3g} mm); add points off it",
-            source_mm.size(), listed_names(names, source_mm.size()), off_line_mm, options.min_thickness_mm));
-    if (off_plane_mm < options.min_thickness_mm)
+    if (off_line_mm < least_thickness_mm)
+        throw NumericalError(
+            fmt::format("thin-plate spline: all {} source points ({}) lie within {:.3g} mm of one line "
+                        "(least allowed: {:.3g} mm); add points off it",
+                        source_mm.size(), listed_names(names, source_mm.size()), off_line_mm, least_thickness_mm));
+    if (off_plane_mm < least_thickness_mm)
         throw NumericalError(
             fmt::format("thin-plate spline: all {} source points ({}) lie within {:.3g} mm of one plane "
                         "(normal {:.3f}, {:.3f}, {:.3f}; least allowed: {:.3g} mm); add a point off it",
                         source_mm.size(), listed_names(names, source_mm.size()), off_plane_mm, normal.x(), normal.y(),
-                        normal.z(), options.min_thickness_mm));
+                        normal.z(), least_thickness_mm));
 }
 
 using FourColumns = Eigen::Matrix<double, Eigen::Dynamic, 4>;
@@ -170,12 +174,12 @@ ThinPlateSpline ThinPlateSpline::fit(std::span<const Point> source_mm, std::span
     const Eigen::Map<const Eigen::Matrix3Xd> source(source_mm.data()->data(), 3, n);
     const Eigen::Map<const Eigen::Matrix3Xd> target(target_mm.data()->data(), 3, n);
     const Point centre = source.rowwise().mean();
-    check_spread(source_mm, centre, options, names);
+    const Eigen::Matrix3Xd centred = source.colwise() - centre;
+    const double scale = std::sqrt(centred.squaredNorm() / static_cast<double>(n));
+    check_spread(source_mm, centre, scale, options, names);
 
     // In y = (x - centre) / scale the system is well conditioned whatever the unit. K scales by scale (r) or scale^2
     // (r^2 ln r^2; the term ln(scale^2) |x - s_i|^2 sums to a constant under the side conditions), and X with it.
-    const Eigen::Matrix3Xd centred = source.colwise() - centre;
-    const double scale = std::sqrt(centred.squaredNorm() / static_cast<double>(n));
     const Eigen::Matrix3Xd y = centred / scale;
     const double kernel_scale = options.kernel == SplineKernel::r ? scale : scale * scale;
     // Displacements, not positions, decide the digits: the mean is taken off.

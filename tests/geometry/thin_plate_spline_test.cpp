@@ -289,6 +289,18 @@ TEST(ThinPlateSpline, points_in_one_plane_or_on_one_line_are_refused_with_their_
     EXPECT_NO_THROW((void)ThinPlateSpline::fit(plane, plane, {.min_thickness_mm = 1e-5}, names));
 }
 
+TEST(ThinPlateSpline, what_is_flat_or_double_to_the_last_digit_is_refused_even_with_no_limit_set) {
+    const ThinPlateSplineOptions no_limits = {.min_separation_mm = 0, .min_thickness_mm = 0};
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector(3, 1, 2).normalized()).toRotationMatrix();
+    std::vector<Point> plane;
+    for (int i = 0; i < 6; ++i) plane.push_back(turn * Vector(10 * i, 7 * i * i, 0.0) + Vector(1, 2, 3));
+    EXPECT_THAT(message_of<NumericalError>([&] { (void)ThinPlateSpline::fit(plane, plane, no_limits); }),
+                HasSubstr("one plane"));
+    const std::vector<Point> one_place(5, Point(1, 2, 3));
+    EXPECT_THAT(message_of<NumericalError>([&] { (void)ThinPlateSpline::fit(one_place, one_place, no_limits); }),
+                HasSubstr("0 mm apart"));
+}
+
 TEST(ThinPlateSpline, points_too_close_for_double_precision_are_an_error_and_never_a_wrong_answer) {
     auto source = face_points(20, 23);
     source[7] = source[3] + Vector(1e-9, 0, 0);

@@ -1,0 +1,66 @@
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "geometry/warp.h"
+
+namespace mimik::cli {
+namespace {
+
+struct WarpArguments {
+    Common common;
+    std::filesystem::path from, to, input, output;
+    geometry::WarpOptions options;
+};
+
+const std::map<std::string, geometry::SplineKernel> kernel_names = {{"r", geometry::SplineKernel::r},
+                                                                    {"r2logr", geometry::SplineKernel::r2_log_r2}};
+
+int run_warp(const WarpArguments& arguments) {
+    const auto report =
+        geometry::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, arguments.options);
+    if (arguments.common.json) {
+        std::cout << nlohmann::json{{"schema", 1},
+                                    {"output", arguments.output.string()},
+                                    {"landmarks", report.landmarks},
+                                    {"points", report.points},
+                                    {"largest_landmark_residual", report.largest_landmark_residual},
+                                    {"largest_displacement", report.largest_displacement},
+                                    {"bending_energy", report.bending_energy}}
+                         .dump(2)
+                  << '\n';
+    } else if (!arguments.common.quiet) {
+        std::cout << fmt::format("{}: {} points moved by up to {:.3f} through {} landmarks (met within {:.2g})\n",
+                                 arguments.output.string(), report.points, report.largest_displacement,
+                                 report.landmarks, report.largest_landmark_residual);
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+void add_warp_command(CLI::App& app, int& exit_code) {
+    auto arguments = std::make_shared<WarpArguments>();
+    auto* command = app.add_subcommand("warp", "Warp a mesh or a list of points by landmarks (thin-plate spline)");
+    command->add_option("--from", arguments->from, "Landmarks on the input: CSV with name,x,y,z")->required();
+    command->add_option("--to", arguments->to, "Where they go: the same names")->required();
+    command->add_option("--kernel", arguments->options.kernel, "r, or r2logr (r^2 ln r^2)")
+        ->transform(CLI::CheckedTransformer(kernel_names))
+        ->default_str("r");
+    command
+        ->add_option("--smoothing", arguments->options.smoothing,
+                     "X in (K + X I) W + P A = V; 0 passes through every landmark; unit of K")
+        ->capture_default_str();
+    command->add_option("INPUT", arguments->input, "Points (.csv) or mesh (.ply .obj .stl .vtp .pcd)")->required();
+    command->add_option("-o,--output", arguments->output, "File to write (.csv .ply .obj .stl .vtp)")->required();
+    add_common_options(*command, arguments->common);
+    command->callback([arguments, &exit_code] { exit_code = run_warp(*arguments); });
+}
+
+}  // namespace mimik::cli

@@ -1,0 +1,145 @@
+#include "geometry/warp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/landmark_io.h"
+#include "geometry/mesh_io.h"
+#include "geometry/points_csv.h"
+#include "geometry/text.h"
+
+namespace mimik::geometry {
+namespace {
+
+bool is_csv(const std::filesystem::path& file) { return equal_ignoring_case(file.extension().string(), ".csv"); }
+
+double root_mean_square_radius(std::span<const Point> points) {
+    Point centre = Point::Zero();
+    for (const auto& p : points) centre += p / static_cast<double>(points.size());
+    double sum = 0;
+    for (const auto& p : points) sum += (p - centre).squaredNorm();
+    return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+void require_partners(const LandmarkPairing& pairing) {
+    const auto lacking = [](const std::vector<std::string>& names, const char* where, const char* other) {
+        return names.empty() ? std::string()
+                             : fmt::format("only the {} landmarks have '{}', the {} ones lack {}", where,
+                                           fmt::join(names, "', '"), other, names.size() == 1 ? "it" : "them");
+    };
+    const auto first = lacking(pairing.only_in_source, "source", "target");
+    const auto second = lacking(pairing.only_in_target, "target", "source");
+    if (first.empty() && second.empty()) return;
+    throw InputError(fmt::format("landmarks without a partner: {}{}{}; mark them in both or delete them", first,
+                                 first.empty() || second.empty() ? "" : "; ", second));
+}
+
+/// What the input file holds: a mesh (for CSV a bare cloud), and names if it had them.
+struct WarpInput {
+    MeshFile file;
+    std::vector<std::string> names;
+};
+
+WarpInput read_input(const std::filesystem::path& input) {
+    if (!is_csv(input)) return {read_mesh_file(input), {}};
+    auto table = read_points_csv(input);
+    WarpInput result;
+    result.file.mesh.vertices_mm = std::move(table.points);
+    result.names = std::move(table.names);
+    return result;
+}
+
+void copy_texture(const std::string& texture, const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (texture.empty() || !std::filesystem::exists(from / texture) || std::filesystem::exists(to / texture)) return;
+    const auto image = read_text(from / texture);
+    write_atomically(to / texture, image);
+}
+
+void write_output(const std::filesystem::path& output, WarpInput warp, const std::filesystem::path& input) {
+    auto& mesh = warp.file.mesh;
+    if (!is_csv(output)) {
+        write_mesh(output, mesh, {.texture_file = warp.file.texture_file});
+        copy_texture(warp.file.texture_file, input.parent_path(), output.parent_path());
+        return;
+    }
+    if (warp.names.empty()) {
+        warp.names.reserve(mesh.vertices_mm.size());
+        for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) warp.names.push_back(std::to_string(i));
+    }
+    write_points_csv(output, {std::move(warp.names), std::move(mesh.vertices_mm)});
+}
+
+/// Found out before the work, not after it.
+void check_output_format(const std::filesystem::path& output) {
+    if (!is_csv(output) && mesh_format(output) == MeshFormat::pcd)
+        throw InputError(
+            fmt::format("{}: PCD is read but not written; give .csv, .ply, .obj, .stl or .vtp", output.string()));
+}
+
+}  // namespace
+
+void WarpOptions::check() const {
+    ThinPlateSplineOptions{.kernel = kernel, .smoothing = smoothing}.check();
+    for (const auto& [field, value] : {std::pair{"min_separation_ratio", min_separation_ratio},
+                                       std::pair{"min_thickness_ratio", min_thickness_ratio}})
+        if (!(value >= 0 && value < 1))
+            throw InputError(fmt::format("{} is {}; give 0 or more, and less than 1", field, value));
+}
+
+ThinPlateSpline fit_landmark_spline(const Landmarks& from, const Landmarks& to, const WarpOptions& options) {
+    options.check();
+    const auto pairing = pair_by_name(from, to);
+    require_partners(pairing);
+    std::vector<Point> source, target;
+    std::vector<std::string> names;
+    for (const auto& pair : pairing.pairs) {
+        source.push_back(pair.source_mm);
+        target.push_back(pair.target_mm);
+        names.push_back(pair.name);
+    }
+    const double size = source.empty() ? 0.0 : root_mean_square_radius(source);
+    return ThinPlateSpline::fit(source, target,
+                                {.kernel = options.kernel,
+                                 .smoothing = options.smoothing,
+                                 .min_separation_mm = options.min_separation_ratio * size,
+                                 .min_thickness_mm = options.min_thickness_ratio * size},
+                                names);
+}
+
+Mesh warped(Mesh mesh, const ThinPlateSpline& spline) {
+    spline.apply(mesh.vertices_mm, mesh.vertices_mm);
+    return mesh;
+}
+
+WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::path& to,
+                     const std::filesystem::path& input, const std::filesystem::path& output,
+                     const WarpOptions& options) {
+    check_output_format(output);
+    auto warp = read_input(input);
+    const auto& points = warp.file.mesh.vertices_mm;
+    const auto source = read_landmarks(from), target = read_landmarks(to);
+    const auto spline = fit_landmark_spline(source, target, options);
+
+    WarpReport report;
+    report.landmarks = source.size();
+    report.points = points.size();
+    report.bending_energy = spline.bending_energy();
+    for (const auto& mark : source.all())
+        report.largest_landmark_residual = std::max(report.largest_landmark_residual,
+                                                    (spline(mark.position_mm) - target.position_mm(mark.name)).norm());
+    const auto before = points;
+    warp.file.mesh = warped(std::move(warp.file.mesh), spline);
+    for (std::size_t i = 0; i < before.size(); ++i)
+        report.largest_displacement =
+            std::max(report.largest_displacement, (warp.file.mesh.vertices_mm[i] - before[i]).norm());
+    write_output(output, std::move(warp), input);
+    return report;
+}
+
+}  // namespace mimik::geometry

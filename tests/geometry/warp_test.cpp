@@ -1,0 +1,154 @@
+#include "geometry/warp.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/mesh_io.h"
+#include "geometry/points_csv.h"
+
+namespace mimik::geometry {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class Warp : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = std::filesystem::temp_directory_path() /
+                  (std::string("mimik_warp_") + test->name() + "_" + std::to_string(::getpid()));
+        std::filesystem::remove_all(folder_);
+        // Corners of a box and its middle; the middle moves by 1 in x.
+        write_atomically(
+            folder_ / "a.csv",
+            "name,x,y,z\nc0,0,0,0\nc1,4,0,0\nc2,0,4,0\nc3,0,0,4\nc4,4,4,0\nc5,4,0,4\nc6,0,4,4\nc7,4,4,4\nm,2,2,2\n");
+        write_atomically(
+            folder_ / "b.csv",
+            "x,name,y,z\n3,m,2,2\n0,c0,0,0\n4,c1,0,0\n0,c2,4,0\n0,c3,0,4\n4,c4,4,0\n4,c5,0,4\n0,c6,4,4\n4,c7,4,4\n");
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    [[nodiscard]] std::filesystem::path at(const char* name) const { return folder_ / name; }
+
+    std::filesystem::path folder_;
+};
+
+template <class Error, class Action>
+std::string message_of(Action action) {
+    try {
+        action();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "not thrown";
+}
+
+TEST_F(Warp, of_a_csv_keeps_names_and_order_and_writes_every_digit) {
+    write_atomically(at("in.csv"), "name,x,y,z\nsecond,2,2,2\nfirst,0.1,0.2,0.3\nsecond,4,4,4\n");
+    const auto report = warp_file(at("a.csv"), at("b.csv"), at("in.csv"), at("out.csv"));
+    EXPECT_EQ(report.landmarks, 9U);
+    EXPECT_EQ(report.points, 3U);
+    EXPECT_NEAR(report.largest_displacement, 1.0, 1e-12);  // the middle; rounding of coordinates below 10
+    EXPECT_LT(report.largest_landmark_residual, 1e-12);
+    const auto out = read_points_csv(at("out.csv"));
+    EXPECT_THAT(out.names, ElementsAre("second", "first", "second"));
+    EXPECT_LT((out.points[0] - Point(3, 2, 2)).norm(), 1e-12);
+    const Landmarks a({{"c0", {0, 0, 0}, ""},
+                       {"c1", {4, 0, 0}, ""},
+                       {"c2", {0, 4, 0}, ""},
+                       {"c3", {0, 0, 4}, ""},
+                       {"c4", {4, 4, 0}, ""},
+                       {"c5", {4, 0, 4}, ""},
+                       {"c6", {0, 4, 4}, ""},
+                       {"c7", {4, 4, 4}, ""},
+                       {"m", {2, 2, 2}, ""}});
+    std::vector<Landmark> moved(a.all().begin(), a.all().end());
+    moved[8].position_mm.x() = 3;
+    // To the last bit: 17 digits lose nothing.
+    EXPECT_EQ(out.points[1], fit_landmark_spline(a, Landmarks(moved))(Point(0.1, 0.2, 0.3)));
+}
+
+TEST_F(Warp, of_a_mesh_keeps_faces_and_texture_coordinates) {
+    write_atomically(at("in.obj"),
+                     "v 2 2 2\nv 4 0 0\nv 4 4 4\nv 0 4 4\nvt 0.25 0.5\nvt 0.75 1\nvt 0 0\nvt 1 0\nf 1/1 2/2 3/3 4/4\n");
+    for (const char* name : {"sub/out.obj", "out.ply", "out.vtp"}) {
+        (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at(name));
+        const auto mesh = read_mesh(at(name));
+        ASSERT_EQ(mesh.vertices_mm.size(), 4U) << name;
+        EXPECT_LT((mesh.vertices_mm[0] - Point(3, 2, 2)).norm(), 1e-12) << name;
+        EXPECT_LT((mesh.vertices_mm[3] - Point(0, 4, 4)).norm(), 1e-12) << name;
+        ASSERT_EQ(mesh.faces.size(), 1U) << name;
+        EXPECT_THAT(std::vector(mesh.faces[0].begin(), mesh.faces[0].end()), ElementsAre(0U, 1U, 2U, 3U)) << name;
+        ASSERT_EQ(mesh.texture_coordinates.size(), 4U) << name;
+        EXPECT_NEAR(mesh.texture_coordinates[1].x(), 0.75, 1e-6) << name;  // single precision in some formats
+    }
+    (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("out.csv"));
+    EXPECT_THAT(read_points_csv(at("out.csv")).names, ElementsAre("0", "1", "2", "3"));
+    (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("out.stl"));
+    EXPECT_EQ(read_mesh(at("out.stl")).faces.size(), 2U);
+}
+
+TEST_F(Warp, takes_the_texture_image_along_to_another_folder) {
+    write_atomically(at("in.obj"),
+                     "mtllib in.mtl\nv 2 2 2\nv 4 0 0\nv 4 4 4\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl skin\nf 1/1 2/2 3/3\n");
+    write_atomically(at("in.mtl"), "newmtl skin\nmap_Kd skin.png\n");
+    write_atomically(at("skin.png"), "not decoded here");
+    (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("elsewhere/out.obj"));
+    EXPECT_EQ(read_text(at("elsewhere/skin.png")), "not decoded here");
+    EXPECT_EQ(read_mesh_file(at("elsewhere/out.obj")).texture_file, "skin.png");
+}
+
+TEST_F(Warp, every_name_without_a_partner_is_listed) {
+    write_atomically(at("c.csv"), "name,x,y,z\nc0,0,0,0\nc1,4,0,0\nc2,0,4,0\nnew1,0,0,4\nnew2,1,1,1\n");
+    write_atomically(at("in.csv"), "name,x,y,z\np,2,2,2\n");
+    EXPECT_THAT(
+        message_of<InputError>([&] { (void)warp_file(at("a.csv"), at("c.csv"), at("in.csv"), at("out.csv")); }),
+        AllOf(HasSubstr("'c3', 'c4', 'c5', 'c6', 'c7', 'm'"), HasSubstr("'new1', 'new2'"), Not(HasSubstr("c2"))));
+    EXPECT_FALSE(std::filesystem::exists(at("out.csv")));
+}
+
+TEST_F(Warp, works_in_any_unit_as_coordinates_are_given) {
+    for (const double unit : {1e-6, 1e6}) {
+        std::vector<Landmark> from, to;
+        for (int i = 0; i < 8; ++i) {
+            const Point p = unit * Point(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+            from.push_back({std::to_string(i), p, ""});
+            to.push_back({std::to_string(i), 2 * p, ""});
+        }
+        const auto spline = fit_landmark_spline(Landmarks(from), Landmarks(to));
+        EXPECT_LT((spline(unit * Point(3, 4, 5)) - unit * Point(6, 8, 10)).norm(), 1e-12 * unit);
+    }
+}
+
+TEST_F(Warp, coplanar_landmarks_and_formats_that_cannot_be_written_are_refused) {
+    write_atomically(at("flat.csv"), "name,x,y,z\na,0,0,0\nb,4,0,0\nc,0,4,0\nd,4,4,0\ne,1,3,0\n");
+    write_atomically(at("in.csv"), "name,x,y,z\np,2,2,2\n");
+    EXPECT_THAT(message_of<NumericalError>(
+                    [&] { (void)warp_file(at("flat.csv"), at("flat.csv"), at("in.csv"), at("out.csv")); }),
+                AllOf(HasSubstr("one plane"), HasSubstr("'a', 'b', 'c', 'd', 'e'")));
+    EXPECT_THAT(message_of<InputError>([&] { (void)warp_file(at("a.csv"), at("b.csv"), at("in.csv"), at("out.pcd")); }),
+                HasSubstr("out.pcd"));
+    EXPECT_THAT(message_of<InputError>([&] { (void)warp_file(at("a.csv"), at("b.csv"), at("in.csv"), at("out.xyz")); }),
+                HasSubstr("out.xyz"));
+}
+
+TEST(WarpOptions, defaults_are_valid_and_bad_values_are_refused_by_field) {
+    EXPECT_NO_THROW(WarpOptions{}.check());
+    EXPECT_THAT(message_of<InputError>([] { WarpOptions{.smoothing = -1}.check(); }), HasSubstr("smoothing is -1"));
+    EXPECT_THAT(message_of<InputError>([] { WarpOptions{.min_separation_ratio = 1}.check(); }),
+                HasSubstr("min_separation_ratio is 1"));
+    EXPECT_THAT(message_of<InputError>([] { WarpOptions{.min_thickness_ratio = -1}.check(); }),
+                HasSubstr("min_thickness_ratio is -1"));
+}
+
+}  // namespace
+}  // namespace mimik::geometry
