@@ -3,11 +3,13 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <exception>
 #include <iostream>
 #include <mutex>
 
 #include <fmt/format.h>
 
+#include "geometry/errors.h"
 #include "geometry/parallel.h"
 
 namespace mimik::cli {
@@ -21,6 +23,23 @@ void add_common_options(CLI::App& command, Common& common) {
     command.add_flag("--quiet", common.quiet, "No progress and no remarks");
     command.add_option("--threads", common.threads, "Threads to use; 0 = one per core")->check(CLI::Range(0, 1024));
     command.parse_complete_callback([&common] { geometry::set_thread_count(common.threads); });
+}
+
+int run(CLI::App& app, int argc, char** argv, const int& exit_code) {
+    const auto report = [&](const std::exception& e, int code) {
+        std::cerr << app.get_name() << ": " << e.what() << '\n';
+        return code;
+    };
+    try {
+        app.parse(argc, argv);
+        return exit_code;
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? exit_done : exit_bad_input;
+    } catch (const NumericalError& e) {
+        return report(e, exit_no_answer);
+    } catch (const std::exception& e) {  // InputError; or the system refused a file, memory, a thread
+        return report(e, exit_bad_input);
+    }
 }
 
 Progress::Progress(const Common& common, std::string what, std::size_t total)

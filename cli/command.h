@@ -21,6 +21,10 @@ void add_common_options(CLI::App& command, Common& common);
 /// Done, done with failures that were listed, bad input, no numerical answer.
 enum ExitCode : int { exit_done = 0, exit_done_with_failures = 1, exit_bad_input = 2, exit_no_answer = 3 };
 
+/// Parses and runs the command, prints errors with the program's name before them, and gives what main returns:
+/// `exit_code` as the command left it, or the code of the error.
+[[nodiscard]] int run(CLI::App& app, int argc, char** argv, const int& exit_code);
+
 /// Each command lives in a file of its own (<name>_command.cpp) and is listed here and in main.cpp. The function adds
 /// the subcommand; when it is chosen, its callback stores what main returns in `exit_code`.
 void add_scans_command(CLI::App& app, int& exit_code);
