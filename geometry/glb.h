@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "geometry/types.h"
+
+namespace mimik::geometry {
+
+/// A shape that a viewer blends in with a weight from 0 to 1.
+struct MorphTarget {
+    std::string name;                     ///< shown by viewers, e.g. "AU12_L" or an ARKit name
+    std::vector<Vector> displacement_mm;  ///< one per vertex, at weight 1
+    double weight = 0.0;                  ///< that the file opens with
+};
+
+struct GlbMesh {
+    std::string name = "face";
+    std::vector<Point> positions_mm;
+    std::vector<Vector> normals;                         ///< empty: computed from the triangles
+    std::vector<TextureCoordinate> texture_coordinates;  ///< empty, or one per vertex, v up as everywhere in Mimik
+    std::vector<std::array<std::uint8_t, 3>> colours;    ///< empty, or RGB per vertex
+    std::vector<Triangle> triangles;
+    std::vector<std::uint8_t> texture_png;  ///< a PNG file, embedded; empty: plain skin colour
+    std::vector<MorphTarget> morph_targets;
+    std::vector<std::pair<std::string, std::string>> extras;  ///< kept in mesh.extras beside targetNames
+};
+
+struct GlbScene {
+    std::vector<GlbMesh> meshes;
+    std::vector<std::pair<std::string, std::string>> extras;  ///< kept in asset.extras, e.g. the target's name
+};
+
+/// glTF 2.0, binary: metres, v counted downward, 32-bit floats. Vertices that no triangle uses are left out (so bridged
+/// or outside vertices may hold NaN). Morph targets carry the change of the normals too; mesh.extras.targetNames names
+/// them.
+/// @throws InputError naming the mesh and the part that does not fit or is not finite.
+[[nodiscard]] std::vector<std::uint8_t> encode_glb(const GlbScene& scene);
+void write_glb(const std::filesystem::path& file, const GlbScene& scene);
+
+/// Triangulated mesh with one texture position per vertex: a vertex on a texture seam becomes several. `source_vertex`
+/// (if asked for) says which vertex of `mesh` each comes from, to carry displacements along.
+[[nodiscard]] GlbMesh glb_mesh(const Mesh& mesh, std::vector<std::uint32_t>* source_vertex = nullptr);
+
+}  // namespace mimik::geometry
