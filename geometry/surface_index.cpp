@@ -23,11 +23,10 @@ constexpr std::size_t width = BoxNode::width;
 constexpr double max_coordinate_mm = 1e9;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-// What measuring needs, in the order of the leaves; b and c as edges from a.
+// b and c as edges from a.
 struct Corners {
     Point a;
     Vector ab, ac;
-    std::uint32_t triangle = 0;
 };
 
 struct Box {
@@ -51,7 +50,7 @@ float above(double value) {
 
 struct Measured {
     double squared_mm2 = std::numeric_limits<double>::infinity();
-    std::uint32_t slot = none;
+    std::uint32_t triangle = none;
 };
 
 struct Foot {
@@ -125,7 +124,6 @@ struct SurfaceIndex::Impl {
     std::vector<Point> vertices;
     std::vector<Triangle> triangles;
     std::vector<BoxNode> nodes;
-    std::vector<Corners> slots;
     Point centre = Point::Zero();
     BoxDistances distances = box_distances();
 
@@ -175,14 +173,14 @@ struct SurfaceIndex::Impl {
             const auto& [a, b, c] = triangles[t];
             items[t] = {(vertices[a] + vertices[b] + vertices[c] - 3.0 * centre).cast<float>().array(), t};
         }
-        slots.reserve(triangles.size());
         nodes.reserve(triangles.size() / 7 + 16);
         nodes.emplace_back();
-        fill(0, items);
+        std::vector<Item> scratch;
+        fill(0, items, scratch);
     }
 
     // Splits at the median of the longest side into `parts` runs of `capacity` items (the last may be shorter).
-    static void split(std::span<Item> items, std::uint32_t parts, std::size_t capacity,
+    static void split(std::span<Item> items, std::uint32_t parts, std::size_t capacity, std::vector<Item>& scratch,
                       std::vector<std::span<Item>>& runs) {
         if (parts == 1) {
             runs.push_back(items);
@@ -196,16 +194,43 @@ struct SurfaceIndex::Impl {
         Eigen::Index axis = 0;
         (high - low).maxCoeff(&axis);
         const std::size_t left = parts / 2 * capacity;
-        std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(left), items.end(),
-                         [axis](const Item& p, const Item& q) {
-                             return p.middle[axis] != q.middle[axis] ? p.middle[axis] < q.middle[axis]
-                                                                     : p.triangle < q.triangle;
-                         });
-        split(items.first(left), parts / 2, capacity, runs);
-        split(items.subspan(left), parts - parts / 2, capacity, runs);
+        select(items, left, axis, low[axis], high[axis], scratch);
+        split(items.first(left), parts / 2, capacity, scratch, runs);
+        split(items.subspan(left), parts - parts / 2, capacity, scratch, runs);
     }
 
-    Box fill(std::uint32_t node, std::span<Item> items) {
+    // std::nth_element, with a histogram before it where there are many items: most then move once, without a branch.
+    static void select(std::span<Item> items, std::size_t left, Eigen::Index axis, float low, float high,
+                       std::vector<Item>& scratch) {
+        std::size_t begin = 0, end = items.size();
+        const std::int32_t bins = items.size() > 1024 ? 256 : 32;
+        const float scale = static_cast<float>(bins) / (high - low);
+        if (items.size() > 12 && std::isfinite(scale)) {
+            const auto bin_of = [&](const Item& item) {
+                return std::min(static_cast<std::int32_t>((item.middle[axis] - low) * scale), bins - 1);
+            };
+            std::array<std::uint32_t, 256> count;
+            std::fill_n(count.begin(), bins, 0U);
+            for (const auto& item : items) ++count[static_cast<std::size_t>(bin_of(item))];
+            std::int32_t middle = 0;
+            while (begin + count[static_cast<std::size_t>(middle)] <= left)
+                begin += count[static_cast<std::size_t>(middle++)];
+            end = begin + count[static_cast<std::size_t>(middle)];
+            std::array<std::size_t, 3> next = {0, begin, end};
+            scratch.resize(std::max(scratch.size(), items.size()));
+            for (const auto& item : items) {
+                const auto bin = bin_of(item);
+                scratch[next[static_cast<std::size_t>((bin >= middle) + (bin > middle))]++] = item;
+            }
+            std::copy_n(scratch.begin(), items.size(), items.begin());
+        }
+        const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
+        std::nth_element(at(begin), at(left), at(end), [axis](const Item& p, const Item& q) {
+            return p.middle[axis] != q.middle[axis] ? p.middle[axis] < q.middle[axis] : p.triangle < q.triangle;
+        });
+    }
+
+    Box fill(std::uint32_t node, std::span<Item> items, std::vector<Item>& scratch) {
         std::array<Box, width> boxes;
         std::array<std::uint32_t, width> children{};
         Box whole;
@@ -222,18 +247,16 @@ struct SurfaceIndex::Impl {
                     boxes[k].low[axis] = below(low[axis]);
                     boxes[k].high[axis] = above(high[axis]);
                 }
-                children[k] = static_cast<std::uint32_t>(slots.size());
-                const Point& corner = vertices[triangles[t][0]];
-                slots.push_back({corner, vertices[triangles[t][1]] - corner, vertices[triangles[t][2]] - corner, t});
+                children[k] = t;
                 whole.add(boxes[k]);
             }
         } else {
             std::vector<std::span<Item>> runs;
-            split(items, static_cast<std::uint32_t>((items.size() + capacity - 1) / capacity), capacity, runs);
+            split(items, static_cast<std::uint32_t>((items.size() + capacity - 1) / capacity), capacity, scratch, runs);
             for (std::size_t k = 0; k < runs.size(); ++k) {
                 children[k] = static_cast<std::uint32_t>(nodes.size());
                 nodes.emplace_back();
-                boxes[k] = fill(children[k], runs[k]);
+                boxes[k] = fill(children[k], runs[k], scratch);
                 whole.add(boxes[k]);
             }
         }
@@ -273,11 +296,10 @@ struct SurfaceIndex::Impl {
                 for (; within != 0; within &= within - 1) {
                     const auto k = static_cast<std::size_t>(std::countr_zero(within));
                     if (bound[k] > limit) continue;
-                    const std::uint32_t slot = node.child[k];
-                    const double squared = measure(slots[slot], query).squared_mm2;
-                    if (squared < best.squared_mm2 ||
-                        (squared == best.squared_mm2 && slots[slot].triangle < slots[best.slot].triangle)) {
-                        best = {squared, slot};
+                    const std::uint32_t triangle = node.child[k];
+                    const double squared = measure(corners(triangle), query).squared_mm2;
+                    if (squared < best.squared_mm2 || (squared == best.squared_mm2 && triangle < best.triangle)) {
+                        best = {squared, triangle};
                         limit = upper(squared);
                     }
                 }
@@ -293,19 +315,27 @@ struct SurfaceIndex::Impl {
         }
     }
 
-    static float upper(double squared) { return static_cast<float>(squared) * 1.000001F + 1e-37F; }
+    // Never infinite, so that the infinitely far boxes of unused children stay out of any limit.
+    static float upper(double squared) {
+        return std::min(static_cast<float>(squared) * 1.000001F + 1e-37F, std::numeric_limits<float>::max());
+    }
 
-    SurfacePoint answer(const Point& query, std::uint32_t slot) const {
-        const Corners& t = slots[slot];
+    Corners corners(std::uint32_t triangle) const {
+        const auto& [a, b, c] = triangles[triangle];
+        return {vertices[a], vertices[b] - vertices[a], vertices[c] - vertices[a]};
+    }
+
+    SurfacePoint answer(const Point& query, std::uint32_t triangle) const {
+        const Corners t = corners(triangle);
         const Foot foot = measure(t, query);
         SurfacePoint point;
         point.distance_mm = std::sqrt(foot.squared_mm2);
-        point.triangle = t.triangle;
+        point.triangle = triangle;
         point.barycentric = {foot.edge == 2 ? 0.0 : 1.0 - foot.b - foot.c, foot.b, foot.c};
         point.position_mm = t.a + foot.from_a;
         for (int k = 0; k < 3; ++k)  // a corner is returned to the bit
             if (point.barycentric[k] == 1.0)
-                point.position_mm = vertices[triangles[t.triangle][static_cast<std::size_t>(k)]];
+                point.position_mm = vertices[triangles[triangle][static_cast<std::size_t>(k)]];
         return point;
     }
 
@@ -368,7 +398,7 @@ SurfacePoint SurfaceIndex::closest(const Point& query_mm) const {
     Impl::check_query(query_mm, 0);
     Measured best;
     impl_->search(query_mm, best);
-    return impl_->answer(query_mm, best.slot);
+    return impl_->answer(query_mm, best.triangle);
 }
 
 std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_mm) const {
@@ -379,10 +409,10 @@ std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_m
             const Point& query = queries_mm[i];
             Impl::check_query(query, i);
             Measured best;
-            if (neighbour != none) best = {measure(impl_->slots[neighbour], query).squared_mm2, neighbour};
+            if (neighbour != none) best = {measure(impl_->corners(neighbour), query).squared_mm2, neighbour};
             impl_->search(query, best);
-            answers[i] = impl_->answer(query, best.slot);
-            neighbour = best.slot;
+            answers[i] = impl_->answer(query, best.triangle);
+            neighbour = best.triangle;
         }
     });
     return answers;
@@ -415,10 +445,10 @@ bool SurfaceIndex::first_hit(const Point& origin_mm, const Vector& direction, Su
     const Point origin = origin_mm - impl_->centre;
     const Vector inverse = unit.cwiseInverse();
     double best = std::numeric_limits<double>::infinity();
-    std::uint32_t best_slot = none;
+    std::uint32_t best_triangle = none;
     Eigen::Vector3d best_weights = Eigen::Vector3d::Zero();
-    const auto test = [&](std::uint32_t slot) {
-        const auto& t = impl_->triangles[impl_->slots[slot].triangle];
+    const auto test = [&](std::uint32_t triangle) {
+        const auto& t = impl_->triangles[triangle];
         std::array<double, 3> x{}, y{}, z{};
         for (std::size_t k = 0; k < 3; ++k) {
             const Vector p = impl_->vertices[t[k]] - origin_mm;
@@ -432,9 +462,9 @@ bool SurfaceIndex::first_hit(const Point& origin_mm, const Vector& direction, Su
         if (sum == 0.0) return;
         const double distance = (u * z[0] + v * z[1] + w * z[2]) / sum;
         if (!(distance >= 0.0) || distance > best) return;
-        if (distance == best && impl_->slots[slot].triangle > impl_->slots[best_slot].triangle) return;
+        if (distance == best && triangle > best_triangle) return;
         best = distance;
-        best_slot = slot;
+        best_triangle = triangle;
         best_weights = Eigen::Vector3d(u, v, w) / sum;
     };
 
@@ -463,8 +493,8 @@ bool SurfaceIndex::first_hit(const Point& origin_mm, const Vector& direction, Su
                 stack.push_back(node.child[k]);
         }
     }
-    if (best_slot == none) return false;
-    hit.triangle = impl_->slots[best_slot].triangle;
+    if (best_triangle == none) return false;
+    hit.triangle = best_triangle;
     hit.barycentric = best_weights;
     hit.distance_mm = best;
     hit.position_mm = origin_mm + best * unit;
