@@ -207,7 +207,7 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
     const Point tip = consensus.position_mm("nose_tip");
     if (surface.first_hit({tip.x(), tip.y(), 500.0}, -geometry::Vector::UnitZ(), nose)) {
         const Transform shift(Eigen::Translation3d(-nose.position_mm));
-        for (auto& p : grid.vertices_mm) p = shift * p;
+        for (auto& p : grid.vertices_mm) p -= nose.position_mm;  // not shift * p: 0 * NaN would spread from z
         // Average landmarks lie on the average surface.
         std::vector<Landmark> marks;
         for (const auto& mark : consensus.all()) marks.push_back({mark.name, shift * mark.position_mm, ""});
