@@ -374,14 +374,16 @@ std::vector<Finding> check_scan(const LoadedScan& loaded, const Landmarks* neutr
     return report.finish();
 }
 
-std::vector<Finding> check_scan(const ScanEntry& entry, const ScanEntry* neutral, const DoctorOptions& options) {
-    std::optional<Landmarks> neutral_landmarks;
-    if (neutral && entry.id.side() != Side::both) {
-        try {
-            neutral_landmarks = load(*neutral).landmarks;
-        } catch (const InputError&) {  // is reported where the neutral scan is checked
-        }
+std::optional<Landmarks> landmarks_of(const ScanEntry& entry) {
+    try {
+        return load(entry).landmarks;
+    } catch (const InputError&) {
+        return std::nullopt;
     }
+}
+
+std::vector<Finding> check_scan(const ScanEntry& entry, const ScanEntry* neutral, const DoctorOptions& options) {
+    const auto neutral_landmarks = neutral && entry.id.side() != Side::both ? landmarks_of(*neutral) : std::nullopt;
     const auto* landmarks = neutral_landmarks ? &*neutral_landmarks : nullptr;
     try {
         return check_scan(load(entry), landmarks, options);

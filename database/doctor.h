@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,9 @@ struct DoctorOptions {
 /// The same for a scan that is already loaded.
 [[nodiscard]] std::vector<Finding> check_scan(const LoadedScan& loaded, const geometry::Landmarks* neutral = nullptr,
                                               const DoctorOptions& options = {});
+
+/// The landmarks of a scan under our names; empty if it cannot be loaded (checking that scan says why).
+[[nodiscard]] std::optional<geometry::Landmarks> landmarks_of(const ScanEntry& entry);
 
 /// Holes of a scan: what is not measured but surrounded by what is.
 struct HoleReport {
