@@ -58,9 +58,10 @@ public:
     void expect(int status, int wanted) const {
         if (status == wanted) return;
         const int primary = status & 0xff;
-        throw CacheTrouble{fmt::format("{}: {}", file_.string(), handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(status)),
-                           primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB || primary == SQLITE_ERROR ||
-                               primary == SQLITE_MISMATCH || primary == SQLITE_SCHEMA};
+        throw CacheTrouble{
+            fmt::format("{}: {}", file_.string(), handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(status)),
+            primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB || primary == SQLITE_ERROR ||
+                primary == SQLITE_MISMATCH || primary == SQLITE_SCHEMA};
     }
     [[nodiscard]] sqlite3* handle() const { return handle_; }
 
@@ -79,7 +80,9 @@ public:
     Statement& operator=(const Statement&) = delete;
 
     void bind(int place, const std::string& text) {
-        cache_.expect(sqlite3_bind_text(statement_, place, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT), SQLITE_OK);
+        cache_.expect(
+            sqlite3_bind_text(statement_, place, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT),
+            SQLITE_OK);
     }
     bool row() {
         const int status = sqlite3_step(statement_);
@@ -94,7 +97,8 @@ public:
     }
     [[nodiscard]] std::string text(int column) const {
         const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
-        return bytes ? std::string(bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))) : std::string();
+        return bytes ? std::string(bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)))
+                     : std::string();
     }
     [[nodiscard]] int number(int column) const { return sqlite3_column_int(statement_, column); }
 
@@ -125,9 +129,9 @@ std::string state_of(const ScanEntry& entry) {
 
 std::string check_state_of(const ScanDatabase& database, const ScanEntry& entry, const DoctorOptions& o) {
     const auto* neutral = entry.id.side() == Side::both ? nullptr : neutral_of(database, entry);
-    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", state_of(entry), neutral ? state_of(*neutral) : "", o.min_size_ratio,
-                       o.max_size_ratio, o.max_hole_mm, o.spike_mm, o.max_spike_share, o.landmark_off_scan_mm,
-                       o.order_tolerance_mm, o.min_points);
+    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", state_of(entry), neutral ? state_of(*neutral) : "",
+                       o.min_size_ratio, o.max_size_ratio, o.max_hole_mm, o.spike_mm, o.max_spike_share,
+                       o.landmark_off_scan_mm, o.order_tolerance_mm, o.min_points);
 }
 
 std::string dump(const nlohmann::json& json) {
@@ -135,7 +139,12 @@ std::string dump(const nlohmann::json& json) {
 }
 
 std::string to_json(const ScanSummary& s) {
-    return dump({{"rows", s.rows}, {"cols", s.cols}, {"points", s.points}, {"landmarks", s.landmarks}, {"remarks", s.remarks}, {"error", s.error}});
+    return dump({{"rows", s.rows},
+                 {"cols", s.cols},
+                 {"points", s.points},
+                 {"landmarks", s.landmarks},
+                 {"remarks", s.remarks},
+                 {"error", s.error}});
 }
 
 ScanSummary summary_from_json(const std::string& text) {
@@ -177,8 +186,10 @@ void prepare(Cache& cache, const std::string& root) {
     cache.run("DROP TABLE IF EXISTS about");
     cache.run("DROP TABLE IF EXISTS scans");
     cache.run("CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL)");
-    cache.run("CREATE TABLE scans (file TEXT PRIMARY KEY, state TEXT NOT NULL, summary TEXT NOT NULL, check_state TEXT NOT NULL, "
-              "findings TEXT NOT NULL)");
+    cache.run(
+        "CREATE TABLE scans (file TEXT PRIMARY KEY, state TEXT NOT NULL, summary TEXT NOT NULL, check_state TEXT NOT "
+        "NULL, "
+        "findings TEXT NOT NULL)");
     cache.run(fmt::format("PRAGMA user_version = {}", catalogue_version).c_str());
     Statement statement(cache, "INSERT INTO about VALUES ('database', ?)");
     statement.bind(1, root);
@@ -211,7 +222,8 @@ void write_all(Cache& cache, const std::map<std::string, Remembered>& changed, c
 }
 
 /// What the catalogue remembers of this scan, if it still holds; with findings if they do.
-std::optional<ScanSummary> recall(const Remembered& row, const std::string& state, const std::string& check_state, bool check) {
+std::optional<ScanSummary> recall(const Remembered& row, const std::string& state, const std::string& check_state,
+                                  bool check) {
     const bool checked = row.check_state == check_state;
     if (row.state != state || (check && !checked)) return std::nullopt;
     try {
@@ -249,7 +261,8 @@ ScanSummary examine(const ScanEntry& entry, const ScanEntry* neutral, const Doct
     try {
         summary.findings = check_scan(entry, nullptr, options);
     } catch (const std::exception& e) {
-        summary.findings = {{Severity::error, "unreadable", e.what(), entry.scan_file.string(), "mend or replace the file"}};
+        summary.findings = {
+            {Severity::error, "unreadable", e.what(), entry.scan_file.string(), "mend or replace the file"}};
     }
     return summary;
 }
@@ -274,8 +287,8 @@ std::vector<std::string> ScanSummary::missing_landmarks() const {
 }
 
 bool ScanSummary::has_error() const {
-    return !error.empty() ||
-           std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Severity::error; });
+    return !error.empty() || std::any_of(findings.begin(), findings.end(),
+                                         [](const Finding& f) { return f.severity == Severity::error; });
 }
 
 ScanSummary summarise(const ScanEntry& entry) {
@@ -304,7 +317,8 @@ fs::path catalogue_file(const ScanDatabase& database, const CatalogueOptions& op
     return folder / fmt::format("catalogue-{:016x}.sqlite", hash(database.root.string()));
 }
 
-CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntry* const> scans, const CatalogueOptions& options) {
+CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntry* const> scans,
+                          const CatalogueOptions& options) {
     options.doctor.check();
     CatalogueResult result;
     std::map<std::string, Remembered> remembered;
@@ -351,9 +365,11 @@ CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntr
                     known[i] = 1;
                 }
             if (!known[i])
-                result.summaries[i] = options.check
-                                          ? examine(entry, entry.id.side() == Side::both ? nullptr : neutral_of(database, entry), options.doctor)
-                                          : summarise(entry);
+                result.summaries[i] =
+                    options.check
+                        ? examine(entry, entry.id.side() == Side::both ? nullptr : neutral_of(database, entry),
+                                  options.doctor)
+                        : summarise(entry);
             if (options.progress) options.progress(entry);
         }
     });
@@ -362,8 +378,8 @@ CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntr
     for (std::size_t i = 0; i < count; ++i) {
         ++(known[i] ? result.scans_remembered : result.scans_read);
         if (known[i]) continue;
-        Remembered row{states[i], to_json(result.summaries[i]),
-                       options.check ? check_states[i] : std::string(), to_json(result.summaries[i].findings)};
+        Remembered row{states[i], to_json(result.summaries[i]), options.check ? check_states[i] : std::string(),
+                       to_json(result.summaries[i].findings)};
         changed[keys[i]] = std::move(row);
     }
     // Scans that left the database leave the catalogue.

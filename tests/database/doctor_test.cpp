@@ -1,0 +1,290 @@
+#include "database/doctor.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "tests/database/made_face.h"
+#include "tests/database/temporary_folder.h"
+
+namespace mimik::database {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+LoadedScan loaded(const MadeFace& face, const std::string& name = "bs000_N_N_0") {
+    LoadedScan scan;
+    scan.entry.id = *parse_scan_name(name);
+    scan.entry.scan_file = name + ".bnt";
+    scan.entry.landmarks_file = name + ".lm3";
+    scan.scan = face.scan;
+    scan.scan.texture_file.clear();
+    scan.landmarks = from_bosphorus_labels(to_bosphorus_labels(face.landmarks), &scan.checks.sides);
+    scan.checks.correlations = frame_correlations(face.scan);
+    return scan;
+}
+
+/// Every coordinate of scan and landmarks through the map.
+MadeFace mapped(MadeFace face, const std::function<geometry::Point(geometry::Point)>& map) {
+    for (auto& p : face.scan.points_mm) p = map(p);
+    std::vector<geometry::Landmark> marks(face.landmarks.all().begin(), face.landmarks.all().end());
+    for (auto& mark : marks) mark.position_mm = map(mark.position_mm);
+    face.landmarks = geometry::Landmarks(std::move(marks));
+    return face;
+}
+
+MadeFace renamed(MadeFace face, const std::map<std::string, std::string>& names) {
+    std::vector<geometry::Landmark> marks(face.landmarks.all().begin(), face.landmarks.all().end());
+    for (auto& mark : marks)
+        if (const auto it = names.find(mark.name); it != names.end()) mark.name = it->second;
+    face.landmarks = geometry::Landmarks(std::move(marks));
+    return face;
+}
+
+MadeFace without(MadeFace face, const std::vector<std::string>& names) {
+    std::vector<geometry::Landmark> marks;
+    for (const auto& mark : face.landmarks.all())
+        if (std::find(names.begin(), names.end(), mark.name) == names.end()) marks.push_back(mark);
+    face.landmarks = geometry::Landmarks(std::move(marks));
+    return face;
+}
+
+/// Findings of one kind as "severity: what -> mend" lines.
+std::string found(const std::vector<Finding>& findings, const std::string& kind) {
+    std::string text;
+    for (const auto& f : findings)
+        if (f.kind == kind) text += to_string(f.severity) + ": " + f.what + " -> " + f.mend + "\n";
+    return text;
+}
+
+TEST(Doctor, a_good_scan_has_no_finding) { EXPECT_THAT(check_scan(loaded(make_face())), IsEmpty()); }
+
+TEST(Doctor, default_options_are_valid_and_a_bad_one_is_named) {
+    EXPECT_NO_THROW(DoctorOptions{}.check());
+    DoctorOptions options;
+    options.spike_mm = 0;
+    EXPECT_THAT(message_of<InputError>([&] { options.check(); }), HasSubstr("spike_mm is 0"));
+    options = {};
+    options.max_size_ratio = 0.1;
+    EXPECT_THAT(message_of<InputError>([&] { options.check(); }), HasSubstr("max_size_ratio is 0.1"));
+}
+
+TEST(Doctor, a_face_of_the_wrong_size_is_recognised_as_another_unit) {
+    for (const auto& [scale, unit, mend] :
+         {std::tuple{0.1, "centimetres", "unit=cm"}, {0.001, "metres", "unit=m"}, {1 / 25.4, "inches", "25.4"}}) {
+        const auto text = found(
+            check_scan(loaded(mapped(make_face(), [s = scale](auto p) { return geometry::Point(s * p); }))), "unit");
+        EXPECT_THAT(text, testing::AllOf(HasSubstr("error"), HasSubstr(unit), HasSubstr(mend)));
+        // Without landmarks the extent of the scan tells.
+        auto cloud = loaded(mapped(make_face(), [s = scale](auto p) { return geometry::Point(s * p); }));
+        cloud.landmarks = {};
+        EXPECT_THAT(found(check_scan(cloud), "unit"), HasSubstr(unit));
+    }
+    EXPECT_THAT(found(check_scan(loaded(mapped(make_face(), [](auto p) { return geometry::Point(3 * p); }))), "unit"),
+                HasSubstr("convert scan and landmarks to millimetres"));
+}
+
+TEST(Doctor, a_frame_with_z_away_y_down_or_both_is_named) {
+    const auto frame = [](const std::function<geometry::Point(geometry::Point)>& map) {
+        auto scan = loaded(mapped(make_face(), map));
+        scan.checks.correlations = {};  // landmarks alone
+        return found(check_scan(scan), "frame");
+    };
+    EXPECT_THAT(frame([](auto p) { return geometry::Point(p.x(), p.y(), -p.z()); }),
+                HasSubstr("z does not point toward the camera"));
+    EXPECT_THAT(frame([](auto p) { return geometry::Point(p.x(), -p.y(), p.z()); }), HasSubstr("y points down"));
+    EXPECT_THAT(frame([](auto p) { return geometry::Point(p.x(), -p.y(), -p.z()); }), HasSubstr("180 degrees about x"));
+    EXPECT_THAT(frame([](auto p) { return geometry::Point(p.x(), -p.z(), p.y()); }),
+                HasSubstr("warning: the head is turned by"));
+    EXPECT_EQ(frame([](auto p) { return p; }), "");
+}
+
+TEST(Doctor, a_turned_head_is_fine_in_a_pose_scan) {
+    const Eigen::AngleAxisd turn(0.785, geometry::Vector::UnitY());
+    const auto face = mapped(make_face(), [&](auto p) { return geometry::Point(turn * p); });
+    EXPECT_THAT(found(check_scan(loaded(face)), "frame"), HasSubstr("warning: the head is turned by 4"));
+    EXPECT_EQ(found(check_scan(loaded(face, "bs000_YR_R45_0")), "frame"), "");
+}
+
+TEST(Doctor, a_mirrored_scan_is_seen_by_its_texture_and_by_names_of_the_subjects_own_side) {
+    const auto face = mapped(make_face(), [](auto p) { return geometry::Point(-p.x(), p.y(), p.z()); });
+    auto scan = loaded(face);
+    EXPECT_THAT(found(check_scan(scan), "frame"), HasSubstr("x is mirrored"));
+    scan.landmarks = face.landmarks;  // names that claim the subject's own side
+    scan.entry.landmarks_file = "bs000_N_N_0.csv";
+    EXPECT_THAT(found(check_scan(scan), "sides"), HasSubstr("named left lie at smaller x"));
+}
+
+TEST(Doctor, labels_that_say_the_subjects_left_get_a_warning_in_a_bosphorus_file) {
+    auto scan = loaded(make_face());
+    scan.checks.sides.left_label_is_subject_right = false;
+    EXPECT_THAT(found(check_scan(scan), "sides"), HasSubstr("warning: labels say left where +x is"));
+}
+
+TEST(Doctor, a_swapped_pair_of_labels_is_named) {
+    const auto face = renamed(
+        make_face(), {{"mouth_corner_left", "mouth_corner_right"}, {"mouth_corner_right", "mouth_corner_left"}});
+    EXPECT_THAT(found(check_scan(loaded(face)), "sides"), HasSubstr("left and right 'mouth_corner' are swapped"));
+}
+
+TEST(Doctor, two_landmarks_that_changed_places_are_named) {
+    const auto eyes =
+        renamed(make_face(), {{"eye_outer_left", "eye_inner_left"}, {"eye_inner_left", "eye_outer_left"}});
+    EXPECT_THAT(found(check_scan(loaded(eyes)), "landmarks-swapped"),
+                HasSubstr("'eye_outer_left' should lie outside of 'eye_inner_left'"));
+    const auto lips = renamed(make_face(), {{"lower_lip_outer", "chin"}, {"chin", "lower_lip_outer"}});
+    EXPECT_THAT(found(check_scan(loaded(lips)), "landmarks-swapped"),
+                HasSubstr("'lower_lip_outer' should lie above 'chin', but lies"));
+}
+
+TEST(Doctor, missing_landmarks_are_an_error_if_alignment_needs_them) {
+    const auto findings = check_scan(loaded(without(make_face(), {"nose_tip", "brow_inner_left"})));
+    EXPECT_THAT(found(findings, "landmarks-missing"),
+                testing::AllOf(HasSubstr("error: landmarks needed for alignment are missing: nose_tip"),
+                               HasSubstr("note: landmarks are missing: brow_inner_left")));
+    EXPECT_EQ(findings.front().severity, Severity::error);  // worst first
+    EXPECT_THAT(found(check_scan(loaded(without(make_face(), {"nose_tip"}), "bs000_YR_R90_0")), "landmarks-missing"),
+                HasSubstr("note: "));
+    auto none = loaded(make_face());
+    none.landmarks = {};
+    none.entry.landmarks_file.clear();
+    EXPECT_THAT(found(check_scan(none), "landmarks-missing"), HasSubstr("there is no landmark file"));
+}
+
+TEST(Doctor, landmarks_off_the_surface_are_named_with_their_distance) {
+    MadeFace face = make_face();
+    face.landmarks = moved(face.landmarks, {{"chin", {0, 0, 5}}});
+    EXPECT_THAT(found(check_scan(loaded(face)), "landmarks-off-scan"),
+                HasSubstr("warning: landmarks lie off the scan: chin (4."));
+    std::map<std::string, geometry::Vector> all;
+    for (const auto name : geometry::standard_landmark_names()) all[std::string(name)] = {0, 0, 40};
+    face.landmarks = moved(make_face().landmarks, all);
+    EXPECT_THAT(found(check_scan(loaded(face)), "landmarks-off-scan"), HasSubstr("pair the files again"));
+}
+
+TEST(Doctor, a_one_sided_scan_that_moves_the_other_corner_is_an_error) {
+    MadeFace face = make_face();
+    const auto neutral = face.landmarks;
+    face.landmarks = moved(neutral, {{"mouth_corner_right", {-5, 6, -2}}});
+    EXPECT_THAT(found(check_scan(loaded(face, "bs000_LFAU_12L_0"), &neutral), "one-sided"),
+                testing::AllOf(HasSubstr("taken as the subject's left side, but the right mouth corner moves"),
+                               HasSubstr("LFAU_12R")));
+    EXPECT_EQ(found(check_scan(loaded(face, "bs000_LFAU_12R_0"), &neutral), "one-sided"), "");
+}
+
+TEST(Doctor, holes_are_counted_and_the_largest_measured) {
+    MadeFace face = mapped(make_face(), [](auto p) { return geometry::Point(p.x(), p.y(), 0); });  // flat: known spans
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    const auto open = [&](int row, int col) {
+        face.scan.points_mm[static_cast<std::size_t>(row * face.scan.cols + col)].setConstant(nothing);
+    };
+    open(20, 20);
+    for (int row = 60; row < 63; ++row)
+        for (int col = 30; col < 33; ++col) open(row, col);
+    for (int row = 0; row < 10; ++row) open(row, 5);  // reaches the edge of the lattice: outline, no hole
+    const auto holes = find_holes(face.scan);
+    EXPECT_TRUE(holes.judged);
+    EXPECT_EQ(holes.count, 2);
+    // The rim of 3 x 3 missing cells spans 4 cells of 2 mm in x and in y.
+    EXPECT_NEAR(holes.largest_mm, std::sqrt(64.0 + 64.0), 1e-9);  // rounding
+    EXPECT_NEAR(holes.largest_at_mm.y(), (61 - 40) * 2.0, 1e-9);
+    EXPECT_THAT(found(check_scan(loaded(face)), "holes"), HasSubstr("note: 2 holes, the largest 11.3 mm"));
+    DoctorOptions strict;
+    strict.max_hole_mm = 5;
+    EXPECT_THAT(found(check_scan(loaded(face), nullptr, strict), "holes"), HasSubstr("warning: 2 holes"));
+}
+
+TEST(Doctor, holes_of_a_mesh_are_its_inner_rims) {
+    const MadeFace face = mapped(make_face(), [](auto p) { return geometry::Point(p.x(), p.y(), 0); });
+    geometry::RangeScan mesh;
+    mesh.points_mm = face.scan.points_mm;
+    for (int row = 0; row + 1 < face.scan.rows; ++row)
+        for (int col = 0; col + 1 < face.scan.cols; ++col) {
+            if (row >= 40 && row < 43 && col == 30) continue;  // 3 quads
+            const auto a = static_cast<std::uint32_t>(row * face.scan.cols + col),
+                       up = a + static_cast<std::uint32_t>(face.scan.cols);
+            mesh.faces.add(std::array{a, a + 1, up + 1, up});
+        }
+    const auto holes = find_holes(mesh);
+    EXPECT_EQ(holes.count, 1);
+    EXPECT_NEAR(holes.largest_mm, std::sqrt(4.0 + 36.0), 1e-9);  // 2 x 6 mm; rounding
+    mesh.faces = {};
+    EXPECT_FALSE(find_holes(mesh).judged);
+}
+
+TEST(Doctor, spikes_are_the_points_off_their_neighbourhood) {
+    MadeFace face = make_face();
+    EXPECT_THAT(find_spikes(face.scan, 4.0), IsEmpty());
+    const std::size_t spike = 25 * 61 + 30;
+    face.scan.points_mm[spike].z() += 12;
+    EXPECT_THAT(find_spikes(face.scan, 4.0), testing::ElementsAre(spike));
+    EXPECT_THAT(found(check_scan(loaded(face)), "spikes"), HasSubstr("note: 1 point (0.02 %) more than 4 mm off"));
+    for (std::size_t i = 0; i < 20; ++i) face.scan.points_mm[(10 + 3 * i) * 61 + 10].z() += 12;
+    EXPECT_THAT(found(check_scan(loaded(face)), "spikes"), HasSubstr("warning: 21 points"));
+}
+
+TEST(Doctor, a_depth_step_is_no_spike) {
+    MadeFace face = make_face();
+    for (std::size_t i = 0; i < face.scan.points_mm.size(); ++i)
+        if (i % 61 >= 30 && i / 61 >= 40) face.scan.points_mm[i].z() += 30;
+    EXPECT_THAT(find_spikes(face.scan, 4.0), IsEmpty());
+}
+
+TEST(Doctor, a_point_far_from_a_cloud_is_a_spike) {
+    geometry::RangeScan cloud;
+    cloud.points_mm = make_face().scan.points_mm;
+    EXPECT_THAT(find_spikes(cloud, 4.0), IsEmpty());
+    cloud.points_mm.emplace_back(0, 0, 150);
+    EXPECT_THAT(find_spikes(cloud, 4.0), testing::ElementsAre(cloud.points_mm.size() - 1));
+}
+
+TEST(Doctor, unreadable_landmarks_do_not_hide_what_is_wrong_with_the_scan) {
+    const TemporaryFolder folder;
+    MadeFace face = make_face();
+    face.scan.points_mm[25 * 61 + 30].z() += 12;
+    write_scan(folder.path(), "bs000_N_N_0", face);
+    geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm3", "damaged");
+    const auto findings = check_scan(open_database(folder.path()).scans[0]);
+    EXPECT_THAT(found(findings, "unreadable"), HasSubstr("bs000_N_N_0.lm3"));
+    EXPECT_THAT(found(findings, "spikes"), HasSubstr("1 point"));
+    EXPECT_EQ(found(findings, "landmarks-missing"), "");
+}
+
+TEST(Doctor, a_truncated_scan_is_one_finding) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    std::filesystem::resize_file(folder.path() / "bs000/bs000_N_N_0.bnt", 1000);
+    const auto findings = check_scan(open_database(folder.path()).scans[0]);
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_THAT(findings[0].what, HasSubstr("bs000_N_N_0.bnt: has 1000 bytes"));
+}
+
+TEST(Doctor, a_texture_that_is_missing_damaged_or_turned_is_named) {
+    const TemporaryFolder folder;
+    MadeFace face = make_face();
+    write_scan(folder.path(), "bs000_N_N_0", face);
+    write_scan(folder.path(), "bs000_N_N_1", face);
+    for (auto& t : face.scan.texture_coordinates) t.y() = 1 - t.y();
+    write_scan(folder.path(), "bs000_N_N_2", face);
+    std::filesystem::remove(folder.path() / "bs000/bs000_N_N_0.png");
+    std::filesystem::resize_file(folder.path() / "bs000/bs000_N_N_1.png", 60);
+    const auto database = open_database(folder.path());
+    EXPECT_THAT(found(check_scan(database.scans[0]), "texture"), HasSubstr("'bs000_N_N_0.png' is not beside it"));
+    EXPECT_THAT(found(check_scan(database.scans[1]), "texture"), HasSubstr("bs000_N_N_1.png"));
+    EXPECT_THAT(found(check_scan(database.scans[2]), "texture"),
+                HasSubstr("texture coordinates lie u to the right, v down"));
+}
+
+TEST(Doctor, findings_survive_json) {
+    const std::vector<Finding> findings = {{Severity::error, "unit", "a \"quoted\" \xC3\xA4", "file", "mend"},
+                                           {Severity::note, "holes", "", "", ""}};
+    EXPECT_EQ(findings_from_json(to_json(findings)), findings);
+    EXPECT_THAT(message_of<InputError>([] { (void)findings_from_json("[{}]"); }), HasSubstr("findings: not the JSON"));
+}
+
+}  // namespace
+}  // namespace mimik::database
