@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "database/bnt.h"
 #include "database/manifest.h"
@@ -267,10 +267,13 @@ geometry::RangeScan read_scan(const ScanEntry& entry) {
     return scan;
 }
 
+/// Words with commas; a long list is cut, with the number left out.
 std::string joined(const std::vector<std::string>& words) {
-    return std::accumulate(words.begin(), words.end(), std::string(), [](std::string all, const std::string& word) {
-        return all.empty() ? word : std::move(all) + ", " + word;
-    });
+    constexpr std::size_t most = 12;
+    const std::vector<std::string> shown(words.begin(),
+                                         words.begin() + static_cast<std::ptrdiff_t>(std::min(most, words.size())));
+    return fmt::format("{}{}", fmt::join(shown, ", "),
+                       words.size() > most ? fmt::format(" and {} more", words.size() - most) : "");
 }
 
 void check_frame(const FrameCorrelations& correlations, std::vector<std::string>& remarks) {
