@@ -48,16 +48,16 @@ float above(double value) {
     return f + std::abs(f) * 1.2e-7F + 1e-30F;
 }
 
-struct Measured {
-    double squared_mm2 = std::numeric_limits<double>::infinity();
-    std::uint32_t triangle = none;
-};
-
 struct Foot {
-    double squared_mm2 = 0.0;
+    double squared_mm2 = std::numeric_limits<double>::infinity();
     Vector from_a = Vector::Zero();  // foot - a
     double b = 0, c = 0;             // weights; exactly 0 (or b + c exactly 1) on an edge
     int edge = -1;                   // 0: ab, 1: ac, 2: bc, -1: inside
+};
+
+struct Nearest {
+    Foot foot;
+    std::uint32_t triangle = none;
 };
 
 // Closest point of a segment from the origin of `to_query` along `edge`.
@@ -83,7 +83,6 @@ Foot measure(const Corners& t, const Point& query) {
         return {height * height * area2, ap - height * normal, b / area2, c / area2, -1};
     }
     Foot best;
-    best.squared_mm2 = std::numeric_limits<double>::infinity();
     const auto consider = [&](int edge, double s, const Vector& from_a) {
         const double squared = (ap - from_a).squaredNorm();
         if (squared < best.squared_mm2)
@@ -272,7 +271,7 @@ struct SurfaceIndex::Impl {
 
     // Depth first, near children first. `best` may hold an upper bound from a neighbouring query's triangle. A box is
     // left out only if it is strictly farther than the best triangle, so that ties reach the comparison of indices.
-    void search(const Point& query, Measured& best) const {
+    void search(const Point& query, Nearest& best) const {
         struct Entry {
             float bound;
             std::uint32_t node;
@@ -282,7 +281,7 @@ struct SurfaceIndex::Impl {
             q_low[static_cast<std::size_t>(axis)] = below(query[axis] - centre[axis]);
             q_high[static_cast<std::size_t>(axis)] = above(query[axis] - centre[axis]);
         }
-        float limit = upper(best.squared_mm2);
+        float limit = upper(best.foot.squared_mm2);
         std::array<Entry, 256> stack;  // at most 7 waiting per level, 11 levels for 2^32 triangles
         std::size_t waiting = 0;
         stack[waiting++] = {0.0F, 0};
@@ -297,10 +296,12 @@ struct SurfaceIndex::Impl {
                     const auto k = static_cast<std::size_t>(std::countr_zero(within));
                     if (bound[k] > limit) continue;
                     const std::uint32_t triangle = node.child[k];
-                    const double squared = measure(corners(triangle), query).squared_mm2;
-                    if (squared < best.squared_mm2 || (squared == best.squared_mm2 && triangle < best.triangle)) {
-                        best = {squared, triangle};
-                        limit = upper(squared);
+                    if (triangle == best.triangle) continue;
+                    const Foot foot = measure(corners(triangle), query);
+                    if (foot.squared_mm2 < best.foot.squared_mm2 ||
+                        (foot.squared_mm2 == best.foot.squared_mm2 && triangle < best.triangle)) {
+                        best = {foot, triangle};
+                        limit = upper(foot.squared_mm2);
                     }
                 }
             } else {
@@ -325,14 +326,13 @@ struct SurfaceIndex::Impl {
         return {vertices[a], vertices[b] - vertices[a], vertices[c] - vertices[a]};
     }
 
-    SurfacePoint answer(const Point& query, std::uint32_t triangle) const {
-        const Corners t = corners(triangle);
-        const Foot foot = measure(t, query);
+    SurfacePoint answer(const Nearest& best) const {
+        const auto& [foot, triangle] = best;
         SurfacePoint point;
         point.distance_mm = std::sqrt(foot.squared_mm2);
         point.triangle = triangle;
         point.barycentric = {foot.edge == 2 ? 0.0 : 1.0 - foot.b - foot.c, foot.b, foot.c};
-        point.position_mm = t.a + foot.from_a;
+        point.position_mm = vertices[triangles[triangle][0]] + foot.from_a;
         for (int k = 0; k < 3; ++k)  // a corner is returned to the bit
             if (point.barycentric[k] == 1.0)
                 point.position_mm = vertices[triangles[triangle][static_cast<std::size_t>(k)]];
@@ -396,9 +396,9 @@ SurfaceIndex& SurfaceIndex::operator=(SurfaceIndex&&) noexcept = default;
 
 SurfacePoint SurfaceIndex::closest(const Point& query_mm) const {
     Impl::check_query(query_mm, 0);
-    Measured best;
+    Nearest best;
     impl_->search(query_mm, best);
-    return impl_->answer(query_mm, best.triangle);
+    return impl_->answer(best);
 }
 
 std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_mm) const {
@@ -408,10 +408,10 @@ std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_m
         for (std::size_t i = begin; i < end; ++i) {
             const Point& query = queries_mm[i];
             Impl::check_query(query, i);
-            Measured best;
-            if (neighbour != none) best = {measure(impl_->corners(neighbour), query).squared_mm2, neighbour};
+            Nearest best;
+            if (neighbour != none) best = {measure(impl_->corners(neighbour), query), neighbour};
             impl_->search(query, best);
-            answers[i] = impl_->answer(query, best.triangle);
+            answers[i] = impl_->answer(best);
             neighbour = best.triangle;
         }
     });
