@@ -77,7 +77,7 @@ void parse_size(const std::string& text, figures::Figure& page) {
     page.panel_height_px = static_cast<int>(height);
 }
 
-void draw(figures::FigureDescription description, const std::string& output, const Common& common) {
+void draw(const figures::FigureDescription& description, const std::string& output, const Common& common) {
     if (!geometry::equal_ignoring_case(std::filesystem::path(output).extension().string(), ".png"))
         throw InputError(fmt::format("--output is '{}'; figures are written as .png", output));
     const auto figure = figures::load_figure(description);
@@ -155,7 +155,7 @@ int run_figure(int argc, char** argv) {
                     throw InputError(option->get_name() + " and --description exclude one another: say it in " + file);
             description = figures::read_figure_description(file);
         }
-        draw(std::move(description), output, common);
+        draw(description, output, common);
     });
     return run(app, argc, argv, exit_done);
 }

@@ -128,7 +128,9 @@ std::vector<std::string> wrapped(const std::string& text, int size_px, int width
         std::istringstream words(paragraph);
         std::string line;
         for (std::string word; words >> word;) {
-            const std::string longer = line.empty() ? word : line + ' ' + word;
+            std::string longer = line;
+            if (!line.empty()) longer += ' ';
+            longer += word;
             if (!line.empty() && text_width(longer, size_px) > width_px) {
                 lines.push_back(line);
                 line = word;

@@ -410,7 +410,8 @@ geometry::Image render(const Figure& figure) {
     y = page.margin + page.title_height();
     for (int row = 0; row < page.rows; ++row) {
         for (int col = 0; col < page.columns; ++col) {
-            const auto p = static_cast<std::size_t>(row * page.columns + col);
+            const int panel_number = row * page.columns + col;
+            const auto p = static_cast<std::size_t>(panel_number);
             if (p >= figure.panels.size()) break;
             const auto& panel = figure.panels[p];
             const int x = page.margin + col * (page.cell_width + page.margin);

@@ -1,6 +1,7 @@
 #include "figures/offscreen.h"
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -14,7 +15,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vtkCallbackCommand.h>
@@ -28,6 +28,7 @@
 
 // Debian's GLEW is built for GLX: without an X server it loads every entry point and then reports "no GLX display",
 // which VTK takes for a failure and draws nothing. This definition stands before the library's and forgives that code.
+// NOLINTNEXTLINE(readability-identifier-naming): the name is GLEW's
 extern "C" __attribute__((visibility("default"), used)) unsigned int glewInit() {
     static const auto real = reinterpret_cast<unsigned int (*)()>(dlsym(RTLD_NEXT, "glewInit"));
     constexpr unsigned int error = 1, no_glx_display = 4;

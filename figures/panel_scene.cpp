@@ -296,8 +296,8 @@ geometry::Image read_back(vtkRenderWindow& window, int width, int height, int su
     geometry::Image image{width, height, {}};
     image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     const unsigned char* drawn = pixels->GetPointer(0);
-    const auto row_values = static_cast<std::size_t>(3 * width * supersampling);
     const auto s = static_cast<std::size_t>(supersampling);
+    const std::size_t row_values = 3 * s * static_cast<std::size_t>(width);
     const unsigned count = static_cast<unsigned>(supersampling * supersampling);
     std::size_t out = 0;
     for (int row = height - 1; row >= 0; --row)  // OpenGL counts rows from below
