@@ -1,0 +1,17 @@
+#include "geometry/formats/obj.h"
+#include "geometry/mesh_io.h"
+#include "tests/fuzz/fuzzing.h"
+
+namespace mimik::fuzzing {
+
+void fuzz_one(std::span<const std::uint8_t> bytes) {
+    const auto name =
+        geometry::checked_texture_name(geometry::formats::texture_of_material(text_of(bytes), "input"), "input");
+    require(name.find_first_of("/\\:\n") == std::string::npos && name != "..", "a texture stays in its folder");
+}
+
+std::vector<std::string> seeds() {
+    return {geometry::formats::material_with_texture("face 1.png"), "newmtl a\nmap_Kd -s 1 1 1 ../x.png\n"};
+}
+
+}  // namespace mimik::fuzzing
