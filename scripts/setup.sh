@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# setup.sh [--check]: installs the Debian 12 packages that Mimik is built and run with; does nothing where they are there.
-# --check adds what scripts/check.sh needs (clang tools, sanitizer run-times). Needs root or sudo to install.
+# setup.sh [--check|--bench]: installs the Debian 12 packages that Mimik is built and run with; does nothing where they are there.
+# --check adds what scripts/check.sh needs (clang tools, sanitizer run-times), --bench what scripts/bench.sh needs (peers). Needs root or sudo to install.
 set -euo pipefail
 
 packages=(
@@ -17,8 +17,10 @@ packages=(
 )
 if [ "${1:-}" = --check ]; then
   packages+=(clang-14 clang-format-14 clang-tidy-14 clang-tools-14 libclang-rt-14-dev llvm-14)
+elif [ "${1:-}" = --bench ]; then
+  packages+=(libbenchmark-dev libpcl-dev python3-scipy libopenblas0-pthread)
 elif [ $# -gt 0 ]; then
-  echo "setup.sh: unknown option '$1'; there is --check" >&2
+  echo "setup.sh: unknown option '$1'; there are --check and --bench" >&2
   exit 2
 fi
 
