@@ -66,19 +66,22 @@ Canvas::Canvas(int width, int height, const Colour& background) {
     fill(0, 0, width, height, background);
 }
 
+std::uint8_t* Canvas::at(int x, int y) {
+    return image_.rgb.data() +
+           3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(x));
+}
+
 void Canvas::blend(int x, int y, const Colour& colour, double cover) {
     if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return;
-    const std::size_t first =
-        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(x));
-    for (std::size_t k = 0; k < 3; ++k) {
-        auto& value = image_.rgb[first + k];
-        value = static_cast<std::uint8_t>(std::lround(value + cover * (colour[k] - value)));
-    }
+    std::uint8_t* pixel = at(x, y);
+    for (std::size_t k = 0; k < 3; ++k)
+        pixel[k] = static_cast<std::uint8_t>(std::lround(pixel[k] + cover * (colour[k] - pixel[k])));
 }
 
 void Canvas::fill(int x, int y, int width, int height, const Colour& colour) {
-    for (int row = y; row < y + height; ++row)
-        for (int col = x; col < x + width; ++col) blend(col, row, colour, 1);
+    const int left = std::max(x, 0), right = std::min(x + width, image_.width);
+    for (int row = std::max(y, 0); row < std::min(y + height, image_.height); ++row)
+        for (int col = left; col < right; ++col) std::copy(colour.begin(), colour.end(), at(col, row));
 }
 
 void Canvas::disc(double centre_x, double centre_y, double radius, const Colour& colour) {
@@ -89,13 +92,10 @@ void Canvas::disc(double centre_x, double centre_y, double radius, const Colour&
 }
 
 void Canvas::place(int x, int y, const geometry::Image& picture) {
-    for (int row = 0; row < picture.height; ++row)
-        for (int col = 0; col < picture.width; ++col) {
-            const auto* pixel =
-                &picture.rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
-                                  static_cast<std::size_t>(col))];
-            blend(x + col, y + row, {pixel[0], pixel[1], pixel[2]}, 1);
-        }
+    for (int row = 0; row < picture.height; ++row) {
+        const auto first = picture.rgb.begin() + std::ptrdiff_t{3} * row * picture.width;
+        std::copy_n(first, 3 * picture.width, at(x, y + row));
+    }
 }
 
 void Canvas::text(double x, int baseline_y, const std::string& line, int size_px, double anchor, const Colour& colour) {

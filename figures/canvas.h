@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ public:
 
     void fill(int x, int y, int width, int height, const Colour& colour);
     void disc(double centre_x, double centre_y, double radius, const Colour& colour);
-    void place(int x, int y, const geometry::Image& picture);
+    void place(int x, int y, const geometry::Image& picture);  ///< must lie inside the canvas
     /// One line; `baseline_y` is the row the letters stand on. `anchor` 0: x is the left end, 0.5 the middle, 1 the
     /// right.
     void text(double x, int baseline_y, const std::string& line, int size_px, double anchor, const Colour& colour);
@@ -23,6 +24,7 @@ public:
     [[nodiscard]] const geometry::Image& image() const { return image_; }
 
 private:
+    [[nodiscard]] std::uint8_t* at(int x, int y);
     void blend(int x, int y, const Colour& colour, double cover);
     geometry::Image image_;
 };
