@@ -1,7 +1,6 @@
 #include "database/scan_database.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/landmark_io.h"
+#include "geometry/range_scan_io.h"
 #include "geometry/text.h"
 
 namespace mimik::database {
@@ -216,55 +216,23 @@ void decide_code_sides(ScanDatabase& database) {
                                   : "12L in file names is taken as the subject's left"));
 }
 
-/// Texture coordinates per vertex; where a seam gives a vertex several, the first face's.
-std::vector<geometry::TextureCoordinate> texture_per_vertex(const geometry::Mesh& mesh) {
-    if (mesh.faces.texture_corners.empty() || mesh.texture_coordinates.empty()) return mesh.texture_coordinates;
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-    std::vector<geometry::TextureCoordinate> result(mesh.vertices_mm.size(), {nothing, nothing});
-    for (std::size_t k = 0; k < mesh.faces.corners.size(); ++k)
-        if (auto& texture = result[mesh.faces.corners[k]]; !texture.allFinite())
-            texture = mesh.texture_coordinates[mesh.faces.texture_corners[k]];
-    return result;
-}
-
-/// A lattice may begin at any corner; ours begins at the lowest row and runs to the subject's left.
-void orient_lattice(geometry::RangeScan& scan) {
-    const auto found = frame_correlations(scan);
-    const auto rows = static_cast<std::size_t>(scan.rows), cols = static_cast<std::size_t>(scan.cols);
-    const auto reorder = [&](auto& values) {
-        if (values.empty()) return;
-        for (std::size_t row = 0; found.x_column && *found.x_column < 0 && row < rows; ++row)
-            std::reverse(values.begin() + static_cast<std::ptrdiff_t>(row * cols),
-                         values.begin() + static_cast<std::ptrdiff_t>((row + 1) * cols));
-        for (std::size_t row = 0; found.y_row && *found.y_row < 0 && row < rows / 2; ++row)
-            std::swap_ranges(values.begin() + static_cast<std::ptrdiff_t>(row * cols),
-                             values.begin() + static_cast<std::ptrdiff_t>((row + 1) * cols),
-                             values.begin() + static_cast<std::ptrdiff_t>((rows - 1 - row) * cols));
-    };
-    reorder(scan.points_mm);
-    reorder(scan.texture_coordinates);
-}
-
 geometry::RangeScan read_scan(const ScanEntry& entry) {
-    geometry::RangeScan scan;
-    if (same(entry.scan_file.extension().string(), ".bnt")) {
-        scan = to_range_scan(read_bnt(entry.scan_file), entry.scan_file.string());
-        if (const double scale = geometry::millimetres_per(entry.unit); scale != 1)
-            for (auto& p : scan.points_mm) p *= scale;
-        return scan;
-    }
-    auto file = geometry::read_mesh_file(entry.scan_file, entry.unit);
-    scan.texture_coordinates = texture_per_vertex(file.mesh);
-    scan.points_mm = std::move(file.mesh.vertices_mm);
-    scan.texture_file = std::move(file.texture_file);
-    if (file.rows > 1) {
-        scan.rows = file.rows;
-        scan.cols = file.cols;
-        orient_lattice(scan);
-    } else {
-        scan.faces = std::move(file.mesh.faces);
-    }
+    if (!same(entry.scan_file.extension().string(), ".bnt"))
+        return geometry::read_range_scan(entry.scan_file, entry.unit);
+    auto scan = to_range_scan(read_bnt(entry.scan_file), entry.scan_file.string());
+    if (const double scale = geometry::millimetres_per(entry.unit); scale != 1)
+        for (auto& p : scan.points_mm) p *= scale;
     return scan;
+}
+
+geometry::Landmarks read_named_landmarks(const ScanEntry& entry, const geometry::RangeScan& scan, SideReport& sides) {
+    const auto raw = geometry::read_landmarks(entry.landmarks_file, scan.points_mm, entry.unit);
+    try {
+        return same(entry.landmarks_file.extension().string(), ".lm3") ? from_bosphorus_labels(raw, &sides)
+                                                                       : from_any_labels(raw, &sides);
+    } catch (const InputError& e) {  // two labels that mean the same point
+        throw InputError(fmt::format("{}: {}", entry.landmarks_file.string(), e.what()));
+    }
 }
 
 /// Words with commas; a long list is cut, with the number left out.
@@ -438,10 +406,7 @@ LoadedScan load(const ScanEntry& entry) {
     if (entry.landmarks_file.empty()) {
         loaded.remarks.push_back("there is no landmark file beside the scan");
     } else {
-        const auto raw = geometry::read_landmarks(entry.landmarks_file, loaded.scan.points_mm, entry.unit);
-        const bool bosphorus = same(entry.landmarks_file.extension().string(), ".lm3");
-        loaded.landmarks =
-            bosphorus ? from_bosphorus_labels(raw, &loaded.checks.sides) : from_any_labels(raw, &loaded.checks.sides);
+        loaded.landmarks = read_named_landmarks(entry, loaded.scan, loaded.checks.sides);
     }
     if (!loaded.checks.sides.swapped_pairs.empty())
         loaded.remarks.push_back(fmt::format("left and right labels are swapped against the rest: {}",

@@ -203,6 +203,15 @@ TEST(Load, bad_pixel_landmarks_do_not_forbid_the_scan) {
                 ElementsAre(HasSubstr("bs000_N_N_0.lm2: no line gives")));
 }
 
+TEST(Load, two_labels_for_one_point_are_refused_with_the_file) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm3",
+                               "# x\n\n2 landmarks:\nNose tip\n0 0 70\nnose  TIP\n0 2 70\n");
+    EXPECT_THAT(message_of<InputError>([&] { (void)load(open_database(folder.path()).scans[0]); }),
+                HasSubstr("bs000_N_N_0.lm3: landmark 'nose_tip' appears twice"));
+}
+
 TEST(Load, many_threads_read_the_same) {
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_N_N_0", make_face());
