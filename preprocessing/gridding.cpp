@@ -260,57 +260,52 @@ Lattice split_cells(const RangeScan& scan, const std::vector<std::uint8_t>& vali
     return lattice;
 }
 
-/// One sample per (x, y): the mean of those that share it.
+/// The valid points, and where several share x and y their mean at the lowest of them: the one that delaunay() names.
 struct Merged {
     std::vector<Point> points_mm;
     std::vector<TextureCoordinate> texture;
     std::size_t duplicates = 0;
 };
 
-Merged merge(const RangeScan& scan, const std::vector<std::uint8_t>& valid) {
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t i = 0; i < valid.size(); ++i)
-        if (valid[i]) order.push_back(i);
-    const auto& p = scan.points_mm;
-    const auto same = [&](std::uint32_t a, std::uint32_t b) { return p[a].x() == p[b].x() && p[a].y() == p[b].y(); };
-    std::vector<std::uint32_t> sorted = order;
-    std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+Merged gather(const RangeScan& scan, const std::vector<std::uint8_t>& valid, std::size_t count) {
+    Merged merged;
+    merged.points_mm.reserve(count);
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+        if (!valid[i]) continue;
+        merged.points_mm.push_back(scan.points_mm[i]);
+        if (!scan.texture_coordinates.empty()) merged.texture.push_back(scan.texture_coordinates[i]);
+    }
+    return merged;
+}
+
+void average_duplicates(Merged& merged) {
+    const auto& p = merged.points_mm;
+    std::vector<std::uint32_t> order(p.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
         if (p[a].x() != p[b].x()) return p[a].x() < p[b].x();
         return p[a].y() != p[b].y() ? p[a].y() < p[b].y() : a < b;
     });
-    Merged merged;
-    merged.points_mm.reserve(order.size());
-    const bool textured = !scan.texture_coordinates.empty();
-    std::vector<std::uint32_t> run_length(valid.size(), 0);  // at the first of each run of duplicates, else 0
-    std::vector<Point> mean;
-    std::vector<TextureCoordinate> mean_texture;
-    std::vector<std::uint32_t> mean_of(valid.size(), 0);
-    for (std::size_t i = 0; i < sorted.size();) {
-        std::size_t end = i + 1;
-        while (end < sorted.size() && same(sorted[i], sorted[end])) ++end;
-        run_length[sorted[i]] = static_cast<std::uint32_t>(end - i);
-        if (end - i > 1) {
-            Point sum = Point::Zero();
-            TextureCoordinate texture_sum = TextureCoordinate::Zero();
-            for (std::size_t k = i; k < end; ++k) {
-                sum += p[sorted[k]];
-                if (textured) texture_sum += scan.texture_coordinates[sorted[k]];
-            }
-            mean_of[sorted[i]] = static_cast<std::uint32_t>(mean.size());
-            const auto count = static_cast<double>(end - i);
-            mean.emplace_back(p[sorted[i]].x(), p[sorted[i]].y(), sum.z() / count);
-            mean_texture.emplace_back(texture_sum / count);
-            merged.duplicates += end - i - 1;
+    for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
+        double z = 0.0;
+        TextureCoordinate texture = TextureCoordinate::Zero();
+        for (end = i; end < order.size() && p[order[end]].head<2>() == p[order[i]].head<2>(); ++end) {
+            z += p[order[end]].z();
+            if (!merged.texture.empty()) texture += merged.texture[order[end]];
         }
-        i = end;
+        const auto shared = static_cast<double>(end - i);
+        merged.points_mm[order[i]].z() = z / shared;
+        if (!merged.texture.empty()) merged.texture[order[i]] = texture / shared;
+        merged.duplicates += end - i - 1;
     }
-    for (const auto i : order) {
-        if (run_length[i] == 0) continue;
-        merged.points_mm.push_back(run_length[i] == 1 ? p[i] : mean[mean_of[i]]);
-        if (textured)
-            merged.texture.push_back(run_length[i] == 1 ? scan.texture_coordinates[i] : mean_texture[mean_of[i]]);
-    }
-    return merged;
+}
+
+/// How many of the points are corners: every distinct one is.
+std::size_t corners_of(const std::vector<Triangle>& triangles, std::size_t points) {
+    std::vector<std::uint8_t> used(points, 0);
+    for (const auto& t : triangles)
+        for (const auto v : t) used[v] = 1;
+    return static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
 }
 
 std::vector<Planar> planar(std::span<const Point> points_mm) {
@@ -402,10 +397,11 @@ QuadGrid grid_scan(const RangeScan& scan, const GriddingOptions& options, Griddi
             for (auto& v : t) v = lattice.rim[v];
         draw_all(raster, samples, between, max_edge_mm);
     } else {
-        const auto merged = merge(scan, valid);
+        auto merged = gather(scan, valid, made.points);
+        const auto all = geometry::delaunay(planar(merged.points_mm));
+        if (corners_of(all, merged.points_mm.size()) < merged.points_mm.size()) average_duplicates(merged);
         made.duplicates = merged.duplicates;
         const Samples samples{merged.points_mm, merged.texture};
-        const auto all = geometry::delaunay(planar(samples.points_mm));
         Raster raster(grid, samples, x, y);
         draw_all(raster, samples, all, bound(triangle_spacing(samples, all)));
     }
