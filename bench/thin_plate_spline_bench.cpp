@@ -88,10 +88,10 @@ void mimik_spline_evaluate_on_2_threads(benchmark::State& state) { evaluate(stat
 void mimik_spline_evaluate_kernel_r(benchmark::State& state) { evaluate(state, geometry::SplineKernel::r, 1); }
 
 void controls(benchmark::internal::Benchmark* bench) {
-    bench->Arg(22)->Arg(40)->Arg(100)->Arg(500)->Unit(benchmark::kMillisecond)->UseRealTime();
+    bench->Arg(22)->Arg(40)->Arg(100)->Arg(500)->Unit(benchmark::kMillisecond);
 }
 void few_controls(benchmark::internal::Benchmark* bench) {  // VTK's fit of 500 takes seconds
-    bench->Arg(22)->Arg(40)->Arg(100)->Unit(benchmark::kMillisecond)->UseRealTime();
+    bench->Arg(22)->Arg(40)->Arg(100)->Unit(benchmark::kMillisecond);
 }
 
 BENCHMARK(mimik_spline_fit)->Apply(controls);
@@ -100,6 +100,6 @@ BENCHMARK(mimik_spline_fit_kernel_r)->Apply(controls);
 BENCHMARK(mimik_spline_evaluate)->Apply(controls);
 BENCHMARK(vtk_evaluate)->Name("vtk_spline_evaluate")->Apply(few_controls);
 BENCHMARK(mimik_spline_evaluate_kernel_r)->Apply(controls);
-BENCHMARK(mimik_spline_evaluate_on_2_threads)->Apply(controls);
+BENCHMARK(mimik_spline_evaluate_on_2_threads)->Apply(controls)->UseRealTime();
 
 }  // namespace
