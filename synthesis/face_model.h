@@ -34,8 +34,8 @@ class FaceModel {
 public:
     virtual ~FaceModel() = default;
 
-    [[nodiscard]] virtual std::string name() const = 0;                 ///< "built-in", "ict-facekit"
-    [[nodiscard]] virtual const geometry::Faces& faces() const = 0;     ///< of the skin that a scanner can see
+    [[nodiscard]] virtual std::string name() const = 0;              ///< "built-in", "ict-facekit"
+    [[nodiscard]] virtual const geometry::Faces& faces() const = 0;  ///< of the skin that a scanner can see
     /// One per vertex, for the skin-like texture.
     [[nodiscard]] virtual const std::vector<geometry::TextureCoordinate>& texture_coordinates() const = 0;
     /// Landmark name (geometry::standard_landmark_names()) -> vertex index.
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] virtual std::vector<std::string> shapes() const = 0;
     /// Displacement of every vertex at full strength (weight 1) on this person's neutral face.
     [[nodiscard]] virtual std::vector<geometry::Vector> shape_displacement_mm(const Identity& identity,
-                                                                             const std::string& shape) const = 0;
+                                                                              const std::string& shape) const = 0;
 };
 
 /// The procedural model: needs no file.

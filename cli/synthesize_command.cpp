@@ -1,0 +1,140 @@
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "geometry/errors.h"
+#include "geometry/parallel.h"
+#include "synthesis/synthesize.h"
+
+namespace mimik::cli {
+namespace {
+
+struct SynthesizeArguments {
+    Common common;
+    std::string out, face_model;
+    bool dry_run = false, no_facs_codes = false;
+    synthesis::SynthesizeOptions options;
+};
+
+int run_synthesize(SynthesizeArguments arguments) {
+    auto& options = arguments.options;
+    options.facs_codes = !arguments.no_facs_codes;
+    options.check();
+    const auto model = synthesis::load_ict_face_model(arguments.face_model);
+    const auto estimate = synthesis::estimate_database(*model, options);
+    if (arguments.dry_run) {
+        const double seconds = estimate.core_seconds / geometry::thread_count();
+        if (arguments.common.json)
+            std::cout << nlohmann::json{{"schema", 1},
+                                        {"scans", estimate.scans},
+                                        {"bytes", estimate.bytes},
+                                        {"seconds", seconds},
+                                        {"skipped_expressions", estimate.skipped_expressions}}
+                             .dump(2)
+                      << '\n';
+        else
+            std::cout << fmt::format("{} scans, about {:.0f} MB and {:.0f} s\n", estimate.scans,
+                                     static_cast<double>(estimate.bytes) / 1e6, seconds);
+        return exit_done;
+    }
+    Progress progress(arguments.common, "synthesize", estimate.scans);
+    options.on_scan_done = [&](const std::string& scan) { progress.advance(scan); };
+    const auto report = synthesis::synthesize_database(arguments.out, *model, options);
+    if (arguments.common.json) {
+        std::cout << nlohmann::json{{"schema", 1},
+                                    {"database", arguments.out},
+                                    {"face_model", model->name()},
+                                    {"subjects", report.subjects},
+                                    {"scans", report.scans},
+                                    {"valid_points", report.valid_points},
+                                    {"lost_grazing", report.lost_grazing},
+                                    {"lost_holes", report.lost_holes},
+                                    {"landmarks_marked", report.landmarks_marked},
+                                    {"landmarks_invisible", report.landmarks_invisible},
+                                    {"bytes", report.bytes},
+                                    {"skipped_expressions", report.skipped_expressions}}
+                         .dump(2)
+                  << '\n';
+        return exit_done;
+    }
+    for (const auto& expression : report.skipped_expressions)
+        if (!arguments.common.quiet) std::cerr << "left out: " << expression << '\n';
+    if (!arguments.common.quiet)
+        std::cout << fmt::format("{}: {} scans of {} subjects ({}), {} points each on average, {:.0f} MB\n",
+                                 arguments.out, report.scans, report.subjects, model->name(),
+                                 report.valid_points / report.scans, static_cast<double>(report.bytes) / 1e6);
+    return exit_done;
+}
+
+void add_variances(CLI::App& command, synthesis::VarianceOptions& v) {
+    const auto add = [&](const char* name, double& value, const char* help) {
+        command.add_option(name, value, help)->capture_default_str()->group("Variances");
+    };
+    add("--identity", v.identity, "Spread of identity in standard deviations of the population");
+    add("--amplitude-person", v.amplitude_person, "Log-normal factor on all expressions of a person");
+    add("--amplitude-performance", v.amplitude_performance, "Log-normal factor per scan");
+    add("--shape", v.shape, "Log-normal factor per main shape and scan");
+    add("--asymmetry-person", v.asymmetry_person, "Left x (1 + a), right x (1 - a): a person's share of a");
+    add("--asymmetry-performance", v.asymmetry_performance, "A scan's share of a");
+    add("--co-activation", v.co_activation, "Scales the mean weight of co-activated shapes");
+    add("--co-activation-spread", v.co_activation_spread, "Scales their standard deviation");
+    add("--size-coupling", v.size_coupling, "Share of a face's size that its motion follows");
+    add("--field-length", v.field_length_mm, "Correlation length of the smooth random change of motion, mm");
+    add("--field-magnitude", v.field_magnitude, "Its standard deviation in magnitude");
+    add("--field-direction", v.field_direction_deg, "Its turn of the direction, degrees rms");
+    add("--micro-expression", v.micro_expression, "Standard deviation of the weight of every shape, in every scan");
+}
+
+void add_scanner(CLI::App& command, synthesis::ScannerOptions& s) {
+    const auto add = [&](const char* name, auto& value, const char* help) {
+        command.add_option(name, value, help)->capture_default_str()->group("Scanner");
+    };
+    add("--spacing", s.spacing_mm, "Of the lattice in x and y, mm");
+    add("--noise-z", s.noise_z_mm, "Standard deviation of depth, mm");
+    add("--smooth-noise-z", s.smooth_noise_z_mm, "Standard deviation of a smooth error of depth, mm");
+    add("--smooth-noise-length", s.smooth_noise_length_mm, "Its correlation length, mm");
+    add("--noise-xy", s.noise_xy_mm, "Standard deviation of x and y, mm");
+    add("--min-normal-z", s.min_normal_z, "Surfaces that turn away further are lost");
+    add("--pitch", s.pitch_deg, "Standard deviation of the nod, degrees");
+    add("--yaw", s.yaw_deg, "Standard deviation of the turn, degrees");
+    add("--roll", s.roll_deg, "Standard deviation of the tilt, degrees");
+    add("--translation", s.translation_mm, "Standard deviation of where the head is, mm");
+    add("--eye-holes", s.eye_hole_share, "Share of the lids that is lost");
+    add("--nostril-holes", s.nostril_hole_share, "Share of the nostrils that is lost");
+    add("--brow-holes", s.brow_hole_share, "Share of the brows that is lost");
+    add("--spikes", s.spikes, "Outliers per scan");
+    add("--stray-parts", s.stray_parts, "Patches of cloth or hair per scan");
+    add("--jitter", s.marking_jitter, "Scales the error of marking (0.5 to 1 mm rms)");
+    add("--texture-density", s.texture_pixels_per_mm, "Pixels per mm of the photograph");
+}
+
+}  // namespace
+
+void add_synthesize_command(CLI::App& app, int& exit_code) {
+    auto arguments = std::make_shared<SynthesizeArguments>();
+    auto* command = app.add_subcommand("synthesize", "Make a database of synthetic scans with a known truth");
+    auto& options = arguments->options;
+    command->add_option("OUT", arguments->out, "New folder for the database")->required();
+    command->add_option("--face-model", arguments->face_model, "Folder of ICT-FaceKit (its FaceXModel or the parent)")
+        ->required();
+    command->add_option("--subjects", options.subjects, "How many people")->capture_default_str();
+    command
+        ->add_option("--expressions", options.expressions,
+                     "thesis, emotions, further, all, or codes such as 12,12L,HAPPY; commas between")
+        ->capture_default_str();
+    command->add_option("--neutrals", options.neutrals, "Neutral scans per person")->capture_default_str();
+    command->add_flag("--repeat", options.repeat, "A second scan _1 of each expression");
+    command->add_option("--seed", options.seed, "Same seed, same database")->capture_default_str();
+    command->add_flag("--no-facs-codes", arguments->no_facs_codes, "Do not write facscodes.lst");
+    command->add_flag("--dry-run", arguments->dry_run, "Say how much time and disk it takes, and stop");
+    add_variances(*command, options.variances);
+    add_scanner(*command, options.scanner);
+    add_common_options(*command, arguments->common);
+    command->callback([arguments, &exit_code] { exit_code = run_synthesize(*arguments); });
+}
+
+}  // namespace mimik::cli

@@ -1,0 +1,335 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/parallel.h"
+#include "synthesis/face_model.h"
+#include "synthesis/random_stream.h"
+
+namespace mimik::synthesis {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::Point;
+using geometry::Vector;
+
+/// Face (0..9408), head and neck (9409..11247): what lies behind is mouth, eyes and teeth.
+constexpr std::uint32_t skin_vertices = 11248;
+constexpr double mm_per_cm = 10.0;
+
+/// The 22 landmarks on the subject's own side, as chosen on the mean face.
+const std::map<std::string, std::uint32_t>& ict_landmarks() {
+    static const std::map<std::string, std::uint32_t> vertices = {
+        {"brow_outer_left", 2509},    {"brow_middle_left", 4114},
+        {"brow_inner_left", 3615},    {"brow_outer_right", 268},
+        {"brow_middle_right", 1914},  {"brow_inner_right", 1401},
+        {"eye_outer_left", 3721},     {"eye_inner_left", 3742},
+        {"eye_outer_right", 1507},    {"eye_inner_right", 1528},
+        {"nose_saddle_left", 3534},   {"nose_saddle_right", 1317},
+        {"nose_wing_left", 5325},     {"nose_wing_right", 4867},
+        {"nose_tip", 4857},           {"mouth_corner_left", 6213},
+        {"mouth_corner_right", 5708}, {"upper_lip_outer", 0},
+        {"upper_lip_inner", 5522},    {"lower_lip_inner", 5515},
+        {"lower_lip_outer", 5518},    {"chin", 964}};
+    return vertices;
+}
+
+// Contours of the 68-point scheme, by which lips, lids and brows are found on the mean face.
+constexpr std::array<std::uint32_t, 12> outer_lips = {5708, 5695, 2081, 0,    4275, 6200,
+                                                      6213, 6346, 6461, 5518, 5957, 5841};
+constexpr std::array<std::uint32_t, 6> right_lids = {1507, 1542, 1537, 1528, 1518, 1511};
+constexpr std::array<std::uint32_t, 6> left_lids = {3742, 3751, 3756, 3721, 3725, 3732};
+constexpr std::array<std::uint32_t, 5> right_brow = {268, 493, 1914, 2044, 1401};
+constexpr std::array<std::uint32_t, 5> left_brow = {3615, 4240, 4114, 2734, 2509};
+
+/// The first `wanted` vertices of an OBJ file, mm. Only the head of the file is read: vertices come first.
+std::vector<Point> read_vertices(const fs::path& file, std::size_t wanted) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw InputError(fmt::format("{}: cannot be opened", file.string()));
+    std::vector<Point> vertices;
+    vertices.reserve(wanted);
+    std::string text;
+    std::size_t at = 0, line_number = 0;
+    constexpr std::size_t piece = std::size_t{1} << 19;
+    const auto more = [&] {
+        text.erase(0, at);
+        at = 0;
+        const std::size_t old = text.size();
+        text.resize(old + piece);
+        in.read(text.data() + old, piece);
+        text.resize(old + static_cast<std::size_t>(in.gcount()));
+        return in.gcount() > 0;
+    };
+    while (vertices.size() < wanted) {
+        std::size_t end = text.find('\n', at);
+        while (end == std::string::npos && more()) end = text.find('\n', at);
+        if (end == std::string::npos)
+            throw InputError(
+                fmt::format("{}: {} vertices, the face model needs {}; the file is cut off or of another topology",
+                            file.string(), vertices.size(), wanted));
+        ++line_number;
+        if (text[at] == 'v' && (text[at + 1] == ' ' || text[at + 1] == '\t')) {
+            Point point;
+            const char* cursor = text.data() + at + 1;
+            const char* const stop = text.data() + end;
+            for (int axis = 0; axis < 3; ++axis) {
+                while (cursor < stop && (*cursor == ' ' || *cursor == '\t')) ++cursor;
+                const auto [next, error] = std::from_chars(cursor, stop, point[axis]);
+                if (error != std::errc{} || !std::isfinite(point[axis]))
+                    throw InputError(fmt::format("{}: line {}: coordinate {} is not a number", file.string(),
+                                                 line_number, axis + 1));
+                cursor = next;
+            }
+            vertices.push_back(mm_per_cm * point);
+        }
+        at = end + 1;
+    }
+    return vertices;
+}
+
+bool inside_polygon(const Point& p, std::span<const Point> polygon) {
+    bool inside = false;
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const Point &a = polygon[i], &b = polygon[j];
+        if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
+            inside = !inside;
+    }
+    return inside;
+}
+
+/// Distance in x and y to an open or closed line.
+double distance_to_line(const Point& p, std::span<const Point> line, bool closed) {
+    double best = 1e300;
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < line.size(); ++i) {
+        const Eigen::Vector2d a = line[i].head<2>(), b = line[(i + 1) % line.size()].head<2>(), q = p.head<2>();
+        const double t = std::clamp((q - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+        best = std::min(best, (q - a - t * (b - a)).norm());
+    }
+    return best;
+}
+
+class IctFaceModel final : public FaceModel {
+public:
+    explicit IctFaceModel(const fs::path& folder) {
+        read_topology(folder / "generic_neutral_mesh.obj");
+        read_modes_and_shapes(folder);
+        name_regions();
+        larger_face_sign_ = size_mm(add(mean_, modes_[0], 1.0)) > size_mm(mean_) ? 1.0 : -1.0;
+    }
+
+    std::string name() const override { return "ict-facekit"; }
+    const geometry::Faces& faces() const override { return faces_; }
+    const std::vector<geometry::TextureCoordinate>& texture_coordinates() const override { return texture_; }
+    const std::map<std::string, std::uint32_t>& landmark_vertices() const override { return ict_landmarks(); }
+    const std::vector<std::string>& vertex_regions() const override { return regions_; }
+
+    Identity draw_identity(std::uint64_t seed, Sex sex, double spread) const override {
+        RandomStream random(seed);
+        Identity identity;
+        identity.sex = sex;
+        identity.seed = seed;
+        for (std::size_t i = 0; i < modes_.size(); ++i) identity.coefficients.push_back(random.normal());
+        // The first mode is size. With the two sexes in equal number it stays N(0, 1) as a whole, and 0.85 makes the
+        // sexes differ by 1.3 standard deviations, as face width and height do (Kesterke et al. 2016).
+        const bool usual = random.uniform() < 0.85;
+        const double sign = ((sex == Sex::male) == usual ? 1.0 : -1.0) * larger_face_sign_;
+        identity.coefficients[0] = sign * std::abs(identity.coefficients[0]);
+        for (double& c : identity.coefficients) c *= spread;
+        const auto face = neutral_mm(identity);
+        const auto distance = [&](const char* a, const char* b) {
+            return (face[ict_landmarks().at(a)] - face[ict_landmarks().at(b)]).norm();
+        };
+        identity.measurements_mm = {{"outer_eye_distance", distance("eye_outer_left", "eye_outer_right")},
+                                    {"inner_eye_distance", distance("eye_inner_left", "eye_inner_right")},
+                                    {"mouth_width", distance("mouth_corner_left", "mouth_corner_right")},
+                                    {"nose_width", distance("nose_wing_left", "nose_wing_right")},
+                                    {"nose_tip_to_chin", distance("nose_tip", "chin")},
+                                    {"face_size", size_mm(face)}};
+        return identity;
+    }
+
+    std::vector<Point> neutral_mm(const Identity& identity) const override {
+        if (identity.coefficients.size() != modes_.size())
+            throw InputError(fmt::format("identity has {} coefficients, the face model {} modes",
+                                         identity.coefficients.size(), modes_.size()));
+        std::vector<Point> face = mean_;
+        for (std::size_t m = 0; m < modes_.size(); ++m)
+            for (std::size_t i = 0; i < face.size(); ++i) face[i] += identity.coefficients[m] * modes_[m][i];
+        return face;
+    }
+
+    std::vector<std::string> shapes() const override {
+        std::vector<std::string> names;
+        for (const auto& [shape, displacement] : shapes_) names.push_back(shape);
+        return names;
+    }
+
+    std::vector<Vector> shape_displacement_mm(const Identity&, const std::string& shape) const override {
+        const auto found = shapes_.find(shape);
+        if (found == shapes_.end())
+            throw InputError(fmt::format("the ICT-FaceKit folder has no shape '{}' ({}.obj)", shape, shape));
+        return found->second;
+    }
+
+private:
+    void read_topology(const fs::path& file) {
+        mean_ = read_vertices(file, skin_vertices);
+        const std::string text = geometry::read_text(file);
+        std::vector<geometry::TextureCoordinate> texture;
+        texture_.assign(skin_vertices, geometry::TextureCoordinate::Zero());
+        std::size_t line_number = 0;
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = std::min(text.find('\n', at), text.size());
+            const char* cursor = text.data() + at;
+            const char* const stop = text.data() + end;
+            ++line_number;
+            at = end + 1;
+            const auto number = [&](auto& value) {
+                while (cursor < stop && *cursor == ' ') ++cursor;
+                const auto [next, error] = std::from_chars(cursor, stop, value);
+                cursor = next;
+                return error == std::errc{};
+            };
+            const auto bad = [&](const char* what) {
+                return InputError(fmt::format("{}: line {}: {}", file.string(), line_number, what));
+            };
+            if (stop - cursor > 3 && cursor[0] == 'v' && cursor[1] == 't') {
+                cursor += 2;
+                geometry::TextureCoordinate uv;
+                if (!number(uv.x()) || !number(uv.y())) throw bad("texture coordinate is not a number");
+                texture.push_back(uv);
+            } else if (stop - cursor > 2 && cursor[0] == 'f' && cursor[1] == ' ') {
+                ++cursor;
+                std::vector<std::uint32_t> corners, texture_corners;
+                std::uint32_t v = 0, vt = 0;
+                while (number(v)) {
+                    if (v == 0) throw bad("vertex index 0; OBJ counts from 1");
+                    corners.push_back(v - 1);
+                    if (cursor < stop && *cursor == '/' && (++cursor, number(vt))) texture_corners.push_back(vt);
+                    while (cursor < stop && *cursor != ' ') ++cursor;
+                }
+                if (corners.size() < 3) throw bad("a face with fewer than 3 corners");
+                if (*std::max_element(corners.begin(), corners.end()) >= skin_vertices) continue;
+                faces_.add(corners);
+                if (texture_corners.size() != corners.size()) continue;
+                for (std::size_t i = 0; i < corners.size(); ++i) {
+                    if (texture_corners[i] == 0 || texture_corners[i] > texture.size())
+                        throw bad("texture index out of range");
+                    // Tiles of one texture space: the fraction is the place inside the tile.
+                    const auto& uv = texture[texture_corners[i] - 1];
+                    texture_[corners[i]] = {uv.x() - std::floor(uv.x()), uv.y() - std::floor(uv.y())};
+                }
+            }
+        }
+        if (faces_.size() == 0)
+            throw InputError(fmt::format("{}: no face of the skin; is it the ICT-FaceKit mesh?", file.string()));
+    }
+
+    void read_modes_and_shapes(const fs::path& folder) {
+        std::vector<fs::path> files;
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (entry.path().extension() == ".obj") files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        // Gaze and pupils do not move skin that a scanner measures; the mean face is read already.
+        std::erase_if(files, [](const fs::path& file) {
+            const std::string stem = file.stem().string();
+            return stem == "generic_neutral_mesh" || stem.starts_with("eyeLook") || stem.starts_with("PupilDilate");
+        });
+        std::vector<std::vector<Vector>> deltas(files.size());
+        geometry::parallel_for(files.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                deltas[i] = read_vertices(files[i], skin_vertices);
+                for (std::size_t v = 0; v < skin_vertices; ++v) deltas[i][v] -= mean_[v];
+            }
+        });
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            const std::string stem = files[i].stem().string();
+            if (stem.starts_with("identity"))
+                modes_.push_back(std::move(deltas[i]));
+            else
+                shapes_.emplace(stem, std::move(deltas[i]));
+        }
+        if (modes_.empty())
+            throw InputError(
+                fmt::format("{}: no identity000.obj; give the folder FaceXModel of ICT-FaceKit", folder.string()));
+        if (!shapes_.contains("mouthSmile_L"))
+            throw InputError(
+                fmt::format("{}: no mouthSmile_L.obj; give the folder FaceXModel of ICT-FaceKit", folder.string()));
+    }
+
+    void name_regions() {
+        const auto line = [&](std::span<const std::uint32_t> vertices) {
+            std::vector<Point> points;
+            for (const auto v : vertices) points.push_back(mean_[v]);
+            return points;
+        };
+        const auto lips = line(outer_lips);
+        const std::array lids = {line(right_lids), line(left_lids)};
+        const std::array brows = {line(right_brow), line(left_brow)};
+        const auto normals = geometry::vertex_normals(mean_, geometry::triangulate(faces_));
+        const Point nose = mean_[ict_landmarks().at("nose_tip")];
+        regions_.assign(skin_vertices, "skin");
+        for (std::size_t i = 0; i < skin_vertices; ++i) {
+            const Point& p = mean_[i];
+            if (p.z() < nose.z() - 65.0) continue;
+            const Vector from_nose = p - nose;
+            if (inside_polygon(p, lips) && p.z() > nose.z() - 40.0) {
+                regions_[i] = "lip";
+            } else if (inside_polygon(p, lids[0]) || inside_polygon(p, lids[1]) ||
+                       distance_to_line(p, lids[0], true) < 1.5 || distance_to_line(p, lids[1], true) < 1.5) {
+                regions_[i] = "eye";
+            } else if (distance_to_line(p, brows[0], false) < 4.5 || distance_to_line(p, brows[1], false) < 4.5) {
+                regions_[i] = "brow";
+            } else if (std::abs(from_nose.x()) > 2.5 && std::abs(from_nose.x()) < 14.0 && from_nose.y() < -4.0 &&
+                       from_nose.y() > -16.0 && from_nose.z() > -32.0 && normals[i].y() < -0.75) {
+                regions_[i] = "nostril";
+            }
+        }
+    }
+
+    static std::vector<Point> add(std::vector<Point> face, const std::vector<Vector>& delta, double weight) {
+        for (std::size_t i = 0; i < face.size(); ++i) face[i] += weight * delta[i];
+        return face;
+    }
+    /// Root mean square distance of the landmarks from their centre.
+    static double size_mm(const std::vector<Point>& face) {
+        Point centre = Point::Zero();
+        for (const auto& [name, v] : ict_landmarks()) centre += face[v] / static_cast<double>(ict_landmarks().size());
+        double sum = 0;
+        for (const auto& [name, v] : ict_landmarks()) sum += (face[v] - centre).squaredNorm();
+        return std::sqrt(sum / static_cast<double>(ict_landmarks().size()));
+    }
+
+    std::vector<Point> mean_;
+    std::vector<std::vector<Vector>> modes_;
+    std::map<std::string, std::vector<Vector>> shapes_;
+    geometry::Faces faces_;
+    std::vector<geometry::TextureCoordinate> texture_;
+    std::vector<std::string> regions_;
+    double larger_face_sign_ = 1.0;
+};
+
+}  // namespace
+
+std::unique_ptr<FaceModel> load_ict_face_model(const std::string& folder) {
+    for (const fs::path& candidate : {fs::path(folder), fs::path(folder) / "FaceXModel"})
+        if (fs::is_regular_file(candidate / "generic_neutral_mesh.obj"))
+            return std::make_unique<IctFaceModel>(candidate);
+    throw InputError(
+        fmt::format("{}: no generic_neutral_mesh.obj there or in FaceXModel below; give a clone of the public "
+                    "repository ICT-VGL/ICT-FaceKit",
+                    folder));
+}
+
+}  // namespace mimik::synthesis

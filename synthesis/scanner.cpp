@@ -1,0 +1,270 @@
+#include "synthesis/scanner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+#include "synthesis/depth_raster.h"
+#include "synthesis/random_stream.h"
+#include "synthesis/smooth_field.h"
+
+namespace mimik::synthesis {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+
+void range(const char* field, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+        throw InputError(fmt::format("{} is {}; give {} to {}", field, value, low, high));
+}
+
+geometry::Transform draw_pose(RandomStream random, const ScannerOptions& options) {
+    const double degree = std::numbers::pi / 180.0;
+    const double pitch = options.pitch_deg * degree * random.normal();
+    const double yaw = options.yaw_deg * degree * random.normal();
+    const double roll = options.roll_deg * degree * random.normal();
+    Vector shift;
+    for (int axis = 0; axis < 3; ++axis) shift[axis] = options.translation_mm * random.normal();
+    geometry::Transform pose = geometry::Transform::Identity();
+    pose.translate(shift);
+    pose.rotate(Eigen::AngleAxisd(roll, Vector::UnitZ()) * Eigen::AngleAxisd(yaw, Vector::UnitY()) *
+                Eigen::AngleAxisd(pitch, Vector::UnitX()));
+    return pose;
+}
+
+/// Root mean square marking error in mm: sharp corners are marked better than soft ridges.
+double marking_error_mm(const std::string& landmark) {
+    if (landmark.starts_with("eye_")) return 0.5;
+    if (landmark.starts_with("mouth_corner") || landmark.find("lip") != std::string::npos) return 0.65;
+    if (landmark.starts_with("nose_tip") || landmark.starts_with("nose_wing")) return 0.75;
+    return 1.0;
+}
+
+double lost_share(const std::string& region, const ScannerOptions& options) {
+    if (region == "eye") return options.eye_hole_share;
+    if (region == "nostril") return options.nostril_hole_share;
+    if (region == "brow") return options.brow_hole_share;
+    return 0.0;
+}
+
+/// The value that a standard normal field exceeds on `share` of the area.
+double exceeded_on(double share) {
+    if (share <= 0) return std::numeric_limits<double>::infinity();
+    if (share >= 1) return -std::numeric_limits<double>::infinity();
+    double low = -8, high = 8;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (0.5 * std::erfc(middle / std::numbers::sqrt2) > share ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+void add_spikes(geometry::RangeScan& scan, RandomStream random, int count) {
+    std::vector<std::size_t> valid;
+    for (std::size_t i = 0; i < scan.points_mm.size(); ++i)
+        if (scan.valid(i)) valid.push_back(i);
+    for (int s = 0; s < count && !valid.empty(); ++s) {
+        const auto index = valid[static_cast<std::size_t>(random.uniform() * static_cast<double>(valid.size()))];
+        const double height = 5.0 + 35.0 * random.uniform();
+        scan.points_mm[index].z() += random.uniform() < 0.5 ? -height : height;
+    }
+}
+
+/// Round patches that lie behind the face and do not touch it, at the lower or side border of the lattice.
+void add_stray_parts(geometry::RangeScan& scan, const RasterLattice& lattice, RandomStream random, int count) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < scan.points_mm.size(); ++i)
+        if (scan.valid(i)) lowest = std::min(lowest, scan.points_mm[i].z());
+    for (int part = 0; part < count; ++part) {
+        const double radius = 4.0 + 4.0 * random.uniform(), depth = lowest - 15.0 - 30.0 * random.uniform();
+        const double col0 = random.uniform() < 0.5 ? 0.08 * lattice.cols : 0.92 * lattice.cols;
+        const double row0 = (0.05 + 0.1 * random.uniform()) * lattice.rows;
+        const double slope_x = 0.5 * random.normal(), slope_y = 0.5 * random.normal();
+        for (int row = 0; row < lattice.rows; ++row)
+            for (int col = 0; col < lattice.cols; ++col) {
+                const double dx = (col - col0) * lattice.spacing_mm, dy = (row - row0) * lattice.spacing_mm;
+                auto& point = scan.points_mm[static_cast<std::size_t>(row) * static_cast<std::size_t>(lattice.cols) +
+                                             static_cast<std::size_t>(col)];
+                if (dx * dx + dy * dy > radius * radius || std::isfinite(point.x())) continue;
+                point = {lattice.x0_mm + col * lattice.spacing_mm, lattice.y0_mm + row * lattice.spacing_mm,
+                         depth + slope_x * dx + slope_y * dy};
+            }
+    }
+}
+
+geometry::Landmarks mark(const geometry::RangeScan& scan, const geometry::Landmarks& truth,
+                         const std::map<std::string, Vector>& normals, const std::string& scan_name, std::uint64_t seed,
+                         double scale) {
+    // A landmark whose nearest measured point is farther than this lies in a hole that a marker would see as one.
+    constexpr double invisible_mm = 6.0;
+    std::vector<geometry::Landmark> marks;
+    for (const auto& landmark : truth.all()) {
+        RandomStream random(seed, scan_name + "/mark/" + landmark.name);
+        const Vector normal = normals.at(landmark.name);
+        const Vector across = normal.unitOrthogonal(), along = normal.cross(across);
+        const double each = scale * marking_error_mm(landmark.name) / std::numbers::sqrt2;
+        const double a = each * random.normal(), b = each * random.normal();
+        const Point meant = landmark.position_mm + a * across + b * along;
+        double best = invisible_mm * invisible_mm;
+        Point nearest = Point::Zero();
+        bool found = false;
+        for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
+            if (!scan.valid(i)) continue;
+            const double distance = (scan.points_mm[i] - meant).squaredNorm();
+            if (distance >= best) continue;
+            best = distance;
+            nearest = scan.points_mm[i];
+            found = true;
+        }
+        if (found) marks.push_back({landmark.name, nearest, ""});
+    }
+    return geometry::Landmarks(std::move(marks));
+}
+
+}  // namespace
+
+void ScannerOptions::check() const {
+    range("spacing_mm", spacing_mm, 0.2, 5);
+    range("noise_z_mm", noise_z_mm, 0, 5);
+    range("smooth_noise_z_mm", smooth_noise_z_mm, 0, 5);
+    range("smooth_noise_length_mm", smooth_noise_length_mm, 1, 100);
+    range("noise_xy_mm", noise_xy_mm, 0, 1);
+    range("min_normal_z", min_normal_z, 0, 0.9);
+    range("pitch_deg", pitch_deg, 0, 30);
+    range("yaw_deg", yaw_deg, 0, 30);
+    range("roll_deg", roll_deg, 0, 30);
+    range("translation_mm", translation_mm, 0, 200);
+    range("eye_hole_share", eye_hole_share, 0, 1);
+    range("nostril_hole_share", nostril_hole_share, 0, 1);
+    range("brow_hole_share", brow_hole_share, 0, 1);
+    range("spikes", spikes, 0, 10000);
+    range("stray_parts", stray_parts, 0, 100);
+    range("marking_jitter", marking_jitter, 0, 20);
+    range("texture_pixels_per_mm", texture_pixels_per_mm, 0.5, 10);
+}
+
+double FaceWindow::level(const Point& head_mm) const {
+    const double x = std::abs(head_mm.x() - centre_mm.x()) / half_width_mm;
+    const double y = std::abs(head_mm.y() - centre_mm.y()) / half_height_mm;
+    return std::pow(std::pow(x, 2.3) + std::pow(y, 2.3), 1.0 / 2.3);
+}
+
+FaceWindow face_window(const FaceModel& model, const std::vector<Point>& resting_mm) {
+    const auto at = [&](const char* name) { return resting_mm[model.landmark_vertices().at(name)]; };
+    const Point eyes = 0.5 * (at("eye_outer_left") + at("eye_outer_right"));
+    const double height = eyes.y() - at("chin").y();
+    const double top = eyes.y() + 0.65 * height, bottom = at("chin").y() - 0.27 * height;
+    FaceWindow window;
+    window.centre_mm = {eyes.x(), 0.5 * (top + bottom), eyes.z()};
+    window.half_height_mm = 0.5 * (top - bottom);
+    window.half_width_mm = 0.85 * (at("eye_outer_left") - at("eye_outer_right")).norm();
+    return window;
+}
+
+SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertices_mm, const FaceWindow& window,
+                        const std::string& scan_name, std::uint64_t seed, const ScannerOptions& options) {
+    options.check();
+    SyntheticScan result;
+    result.scanner_from_head = draw_pose(RandomStream(seed, scan_name + "/pose"), options);
+    std::vector<Point> vertices(vertices_mm.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = result.scanner_from_head * vertices_mm[i];
+    const auto triangles = geometry::triangulate(model.faces());
+    const auto normals = geometry::vertex_normals(vertices, triangles);
+
+    std::vector<geometry::Landmark> truth;
+    std::map<std::string, Vector> landmark_normals;
+    for (const auto name : geometry::standard_landmark_names()) {
+        const auto found = model.landmark_vertices().find(std::string(name));
+        if (found == model.landmark_vertices().end()) continue;
+        truth.push_back({found->first, vertices[found->second], ""});
+        landmark_normals[found->first] = normals[found->second];
+    }
+    result.true_landmarks = geometry::Landmarks(std::move(truth));
+
+    // The lattice covers the window with a rim of background, and stands anywhere against the head.
+    const Point centre = result.scanner_from_head * window.centre_mm;
+    RandomStream phase(seed, scan_name + "/lattice");
+    const double rim_mm = 6.0;
+    RasterLattice lattice;
+    lattice.spacing_mm = options.spacing_mm;
+    lattice.cols = 2 * static_cast<int>((window.half_width_mm + rim_mm) / options.spacing_mm) + 1;
+    lattice.rows = 2 * static_cast<int>((window.half_height_mm + rim_mm) / options.spacing_mm) + 1;
+    lattice.x0_mm = centre.x() - options.spacing_mm * (0.5 * lattice.cols + phase.uniform());
+    lattice.y0_mm = centre.y() - options.spacing_mm * (0.5 * lattice.rows + phase.uniform());
+    const auto hits = depth_raster(vertices, triangles, lattice);
+
+    const double width_mm = lattice.cols * lattice.spacing_mm, height_mm = lattice.rows * lattice.spacing_mm;
+    const double photo_rim_mm = 12.0;
+    result.image_corner_mm = {lattice.x0_mm - photo_rim_mm, lattice.y0_mm + height_mm + photo_rim_mm, 0};
+    result.image_width = static_cast<int>((width_mm + 2 * photo_rim_mm) * options.texture_pixels_per_mm);
+    result.image_height = static_cast<int>((height_mm + 2 * photo_rim_mm) * options.texture_pixels_per_mm);
+
+    auto& scan = result.scan;
+    scan.rows = lattice.rows;
+    scan.cols = lattice.cols;
+    scan.points_mm.assign(hits.size(), Point::Constant(std::numeric_limits<double>::quiet_NaN()));
+    scan.texture_coordinates.assign(hits.size(), geometry::TextureCoordinate::Zero());
+
+    const Point low(lattice.x0_mm, lattice.y0_mm, 0), high(lattice.x0_mm + width_mm, lattice.y0_mm + height_mm, 0);
+    const SmoothField smooth(stream_seed(seed, scan_name + "/smooth_noise"), 1, options.smooth_noise_length_mm, low,
+                             high);
+    const SmoothField patches(stream_seed(seed, scan_name + "/holes"), 1, 1.6, low, high);
+    const SmoothField border(stream_seed(seed, scan_name + "/border"), 1, 9.0, low, high);
+    const auto& regions = model.vertex_regions();
+    std::map<std::string, double> thresholds;
+    for (const auto& region : regions)
+        if (!thresholds.contains(region)) thresholds[region] = exceeded_on(lost_share(region, options));
+    const auto head_from_scanner = result.scanner_from_head.inverse();
+    RandomStream noise(seed, scan_name + "/noise");
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const auto& hit = hits[i];
+        // Drawn for every cell, so that a hole more or less leaves the other cells' noise as it was.
+        const Vector drawn(noise.normal(), noise.normal(), noise.normal());
+        if (!hit.hit() || !hit.front) continue;
+        const double col = static_cast<double>(i % static_cast<std::size_t>(lattice.cols));
+        const double row = static_cast<double>(i / static_cast<std::size_t>(lattice.cols));
+        const Point seen(lattice.x0_mm + col * lattice.spacing_mm, lattice.y0_mm + row * lattice.spacing_mm, hit.z_mm);
+        if (window.level(head_from_scanner * seen) > 1.0 + 0.015 * border.at(seen)[0]) continue;
+        const auto& corners = triangles[hit.triangle];
+        Vector normal = Vector::Zero();
+        for (int c = 0; c < 3; ++c) normal += hit.barycentric[c] * normals[corners[static_cast<std::size_t>(c)]];
+        if (normal.z() < options.min_normal_z * normal.norm()) {
+            ++result.lost_grazing;
+            continue;
+        }
+        int nearest = 0;
+        hit.barycentric.maxCoeff(&nearest);
+        const double threshold = thresholds.at(regions[corners[static_cast<std::size_t>(nearest)]]);
+        if (std::isfinite(threshold) ? patches.at(seen)[0] > threshold : threshold < 0) {
+            ++result.lost_holes;
+            continue;
+        }
+        Point measured = seen;
+        measured.x() += options.noise_xy_mm * drawn.x();
+        measured.y() += options.noise_xy_mm * drawn.y();
+        measured.z() += options.noise_z_mm * drawn.z() + options.smooth_noise_z_mm * smooth.at(seen)[0];
+        scan.points_mm[i] = measured;
+        ++result.valid_points;
+    }
+    // Marked on the clean scan: nobody puts a mark on a spike or on a piece of cloth.
+    result.landmarks = mark(scan, result.true_landmarks, landmark_normals, scan_name, seed, options.marking_jitter);
+    add_spikes(scan, RandomStream(seed, scan_name + "/spikes"), options.spikes);
+    add_stray_parts(scan, lattice, RandomStream(seed, scan_name + "/stray"), options.stray_parts);
+
+    for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
+        if (!scan.valid(i)) continue;
+        const Point& p = scan.points_mm[i];
+        const double u = (p.x() - result.image_corner_mm.x()) * options.texture_pixels_per_mm / result.image_width;
+        const double down = (result.image_corner_mm.y() - p.y()) * options.texture_pixels_per_mm / result.image_height;
+        scan.texture_coordinates[i] = {std::clamp(u, 0.0, 1.0), std::clamp(1.0 - down, 0.0, 1.0)};
+    }
+    return result;
+}
+
+}  // namespace mimik::synthesis

@@ -1,0 +1,151 @@
+#include "synthesis/subject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+#include "synthesis/random_stream.h"
+#include "synthesis/smooth_field.h"
+
+namespace mimik::synthesis {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+
+double landmark_distance(const FaceModel& model, const std::vector<Point>& face, const char* a, const char* b) {
+    const auto& marks = model.landmark_vertices();
+    return (face[marks.at(a)] - face[marks.at(b)]).norm();
+}
+
+bool upper_face(const std::string& shape) { return shape.starts_with("brow") || shape.starts_with("eye"); }
+
+void range(const char* field, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+        throw InputError(fmt::format("{} is {}; give {} to {}", field, value, low, high));
+}
+
+/// Turns and stretches the displacements smoothly over the face: a change that no combination of shapes can make.
+void distort(std::vector<Vector>& displacement, const std::vector<Point>& face, std::uint64_t seed,
+             const VarianceOptions& options) {
+    if (options.field_magnitude == 0 && options.field_direction_deg == 0) return;
+    // A fixed box, larger than any head, so that the draws do not depend on the face.
+    const SmoothField field(seed, 4, options.field_length_mm, Point::Constant(-300), Point::Constant(300));
+    // Two of the three components of the turn change the direction: their root mean square is the option.
+    const double turn = options.field_direction_deg * std::numbers::pi / 180.0 / std::numbers::sqrt2;
+    for (std::size_t i = 0; i < displacement.size(); ++i) {
+        if (displacement[i].squaredNorm() < 1e-12) continue;
+        const auto value = field.at(face[i]);
+        const Vector axis = turn * Vector(value[1], value[2], value[3]);
+        const double angle = axis.norm();
+        if (angle > 0) displacement[i] = Eigen::AngleAxisd(angle, axis / angle) * displacement[i];
+        displacement[i] *= std::max(0.0, 1.0 + options.field_magnitude * value[0]);
+    }
+}
+
+}  // namespace
+
+void VarianceOptions::check() const {
+    range("identity", identity, 0, 3);
+    range("amplitude_person", amplitude_person, 0, 1);
+    range("amplitude_performance", amplitude_performance, 0, 1);
+    range("shape", shape, 0, 1);
+    range("asymmetry_person", asymmetry_person, 0, 0.5);
+    range("asymmetry_performance", asymmetry_performance, 0, 0.5);
+    range("co_activation", co_activation, 0, 5);
+    range("co_activation_spread", co_activation_spread, 0, 5);
+    range("size_coupling", size_coupling, 0, 2);
+    range("field_length_mm", field_length_mm, 5, 500);
+    range("field_magnitude", field_magnitude, 0, 1);
+    range("field_direction_deg", field_direction_deg, 0, 45);
+    range("micro_expression", micro_expression, 0, 0.2);
+}
+
+Subject draw_subject(const FaceModel& model, const std::string& name, std::uint64_t seed,
+                     const VarianceOptions& options) {
+    options.check();
+    Subject subject;
+    subject.name = name;
+    const Sex sex = RandomStream(seed, name + "/sex").uniform() < 0.5 ? Sex::female : Sex::male;
+    subject.identity = model.draw_identity(stream_seed(seed, name + "/identity"), sex, options.identity);
+    subject.resting_mm = model.neutral_mm(subject.identity);
+    RandomStream person(seed, name + "/person");
+    subject.amplitude = person.log_normal(options.amplitude_person);
+    subject.asymmetry = options.asymmetry_person * person.normal();
+
+    const auto mean = model.neutral_mm(model.draw_identity(0, sex, 0.0));
+    const auto ratio = [&](const char* a, const char* b) {
+        return landmark_distance(model, subject.resting_mm, a, b) / landmark_distance(model, mean, a, b);
+    };
+    subject.mouth_width_ratio = ratio("mouth_corner_left", "mouth_corner_right");
+    subject.eye_distance_ratio = ratio("eye_outer_left", "eye_outer_right");
+
+    subject.shapes = model.shapes();
+    std::sort(subject.shapes.begin(), subject.shapes.end());
+    for (const auto& shape : subject.shapes)
+        subject.shape_displacements_mm.push_back(model.shape_displacement_mm(subject.identity, shape));
+    return subject;
+}
+
+Performance perform(const Subject& subject, const Expression& expression, const std::string& scan_name,
+                    std::uint64_t seed, const VarianceOptions& options) {
+    options.check();
+    Performance result;
+    RandomStream amplitude(seed, scan_name + "/amplitude");
+    RandomStream asymmetry(seed, scan_name + "/asymmetry");
+    result.amplitude = subject.amplitude * amplitude.log_normal(options.amplitude_performance);
+    result.asymmetry = subject.asymmetry + options.asymmetry_performance * asymmetry.normal();
+
+    const auto side_factor = [&](const std::string& shape) {
+        return shape.ends_with("_L") ? 1.0 + result.asymmetry : shape.ends_with("_R") ? 1.0 - result.asymmetry : 1.0;
+    };
+    for (const auto& part : expression.main_shapes) {
+        if (!std::binary_search(subject.shapes.begin(), subject.shapes.end(), part.shape))
+            throw InputError(fmt::format("{}: the face model has no shape '{}'", scan_name, part.shape));
+        RandomStream random(seed, scan_name + "/shape/" + part.shape);
+        result.weights[part.shape] +=
+            part.weight * result.amplitude * side_factor(part.shape) * random.log_normal(options.shape);
+    }
+    for (const auto& part : expression.co_activated) {
+        if (!std::binary_search(subject.shapes.begin(), subject.shapes.end(), part.shape)) continue;
+        // Both sides of a co-activated shape are driven together; the asymmetry makes the difference.
+        std::string stem = part.shape;
+        if (stem.ends_with("_L") || stem.ends_with("_R")) stem.resize(stem.size() - 2);
+        RandomStream random(seed, scan_name + "/co/" + stem);
+        const double drawn =
+            options.co_activation * part.weight + options.co_activation_spread * part.deviation * random.normal();
+        result.weights[part.shape] += std::max(0.0, drawn) * result.amplitude * side_factor(part.shape);
+    }
+
+    const std::size_t vertices = subject.resting_mm.size();
+    result.displacement_mm.assign(vertices, Vector::Zero());
+    const auto displacements = [&](const std::string& shape) -> const std::vector<Vector>& {
+        const auto at = std::lower_bound(subject.shapes.begin(), subject.shapes.end(), shape);
+        return subject.shape_displacements_mm[static_cast<std::size_t>(at - subject.shapes.begin())];
+    };
+    for (const auto& [shape, weight] : result.weights) {
+        const double ratio = upper_face(shape) ? subject.eye_distance_ratio : subject.mouth_width_ratio;
+        const double scaled = weight * (1.0 + options.size_coupling * (ratio - 1.0));
+        const auto& full = displacements(shape);
+        for (std::size_t i = 0; i < vertices; ++i) result.displacement_mm[i] += scaled * full[i];
+    }
+    distort(result.displacement_mm, subject.resting_mm, stream_seed(seed, scan_name + "/field"), options);
+
+    if (options.micro_expression > 0) {
+        for (std::size_t s = 0; s < subject.shapes.size(); ++s) {
+            RandomStream random(seed, scan_name + "/micro/" + subject.shapes[s]);
+            const double weight = options.micro_expression * random.normal();
+            for (std::size_t i = 0; i < vertices; ++i)
+                result.displacement_mm[i] += weight * subject.shape_displacements_mm[s][i];
+        }
+    }
+    result.vertices_mm.resize(vertices);
+    for (std::size_t i = 0; i < vertices; ++i)
+        result.vertices_mm[i] = subject.resting_mm[i] + result.displacement_mm[i];
+    return result;
+}
+
+}  // namespace mimik::synthesis

@@ -1,0 +1,271 @@
+#include "synthesis/synthesize.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "database/bnt.h"
+#include "database/bosphorus_landmarks.h"
+#include "database/scan_id.h"
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/image.h"
+#include "geometry/parallel.h"
+#include "synthesis/photograph.h"
+#include "synthesis/truth.h"
+
+namespace mimik::synthesis {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Task {
+    Expression expression;
+    int repetition = 0;
+};
+
+std::vector<Task> plan_scans(const FaceModel& model, const SynthesizeOptions& options,
+                             std::vector<std::string>& skipped) {
+    std::vector<Task> tasks;
+    for (int k = 0; k < options.neutrals; ++k) tasks.push_back({make_expression("N"), k});
+    for (const auto& expression : make_expressions(options.expressions)) {
+        const auto missing = missing_shapes(expression, model);
+        if (!missing.empty()) {
+            skipped.push_back(fmt::format("{}_{} (no shape {})", expression.group, expression.code, missing.front()));
+            continue;
+        }
+        for (int k = 0; k < (options.repeat ? 2 : 1); ++k) tasks.push_back({expression, k});
+    }
+    return tasks;
+}
+
+std::string subject_name(int index) { return fmt::format("bs{:03}", index); }
+
+/// FACS steps are not equal; these shares of the full motion are a choice of ours.
+char intensity_letter(double share) {
+    return share < 0.15 ? 'A' : share < 0.35 ? 'B' : share < 0.6 ? 'C' : share < 0.95 ? 'D' : 'E';
+}
+
+std::string facs_line(const database::ScanId& id, const Expression& expression, double amplitude) {
+    std::string codes;
+    const auto side = id.side();
+    for (const auto& [unit, strength] : expression.action_units) {
+        if (!codes.empty()) codes += '+';
+        if (side == database::Side::left) codes += 'L';
+        if (side == database::Side::right) codes += 'R';
+        codes += std::to_string(unit);
+        codes += intensity_letter(0.8 * strength * amplitude);
+    }
+    return fmt::format("{} -> {}\n", id.name(), codes.empty() ? "0" : codes);
+}
+
+std::vector<database::ImageLandmark> image_landmarks(const SyntheticScan& scan, const geometry::Landmarks& labelled,
+                                                     double pixels_per_mm) {
+    std::vector<database::ImageLandmark> marks;
+    for (const auto& mark : labelled.all())
+        marks.push_back({mark.name, (mark.position_mm.x() - scan.image_corner_mm.x()) * pixels_per_mm,
+                         (scan.image_corner_mm.y() - mark.position_mm.y()) * pixels_per_mm});
+    return marks;
+}
+
+json variances_json(const VarianceOptions& v) {
+    return {{"identity", v.identity},
+            {"amplitude_person", v.amplitude_person},
+            {"amplitude_performance", v.amplitude_performance},
+            {"shape", v.shape},
+            {"asymmetry_person", v.asymmetry_person},
+            {"asymmetry_performance", v.asymmetry_performance},
+            {"co_activation", v.co_activation},
+            {"co_activation_spread", v.co_activation_spread},
+            {"size_coupling", v.size_coupling},
+            {"field_length_mm", v.field_length_mm},
+            {"field_magnitude", v.field_magnitude},
+            {"field_direction_deg", v.field_direction_deg},
+            {"micro_expression", v.micro_expression}};
+}
+
+json scanner_json(const ScannerOptions& s) {
+    return {{"spacing_mm", s.spacing_mm},
+            {"noise_z_mm", s.noise_z_mm},
+            {"smooth_noise_z_mm", s.smooth_noise_z_mm},
+            {"smooth_noise_length_mm", s.smooth_noise_length_mm},
+            {"noise_xy_mm", s.noise_xy_mm},
+            {"min_normal_z", s.min_normal_z},
+            {"pitch_deg", s.pitch_deg},
+            {"yaw_deg", s.yaw_deg},
+            {"roll_deg", s.roll_deg},
+            {"translation_mm", s.translation_mm},
+            {"eye_hole_share", s.eye_hole_share},
+            {"nostril_hole_share", s.nostril_hole_share},
+            {"brow_hole_share", s.brow_hole_share},
+            {"spikes", s.spikes},
+            {"stray_parts", s.stray_parts},
+            {"marking_jitter", s.marking_jitter},
+            {"texture_pixels_per_mm", s.texture_pixels_per_mm}};
+}
+
+json model_json(const FaceModel& model) {
+    json faces = json::array(), regions = json::object();
+    for (std::size_t f = 0; f < model.faces().size(); ++f) faces.push_back(model.faces()[f]);
+    const auto& names = model.vertex_regions();
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i] != "skin") regions[names[i]].push_back(i);
+    return {{"name", model.name()},
+            {"vertices", names.size()},
+            {"faces", faces},
+            {"regions", regions},
+            {"landmark_vertices", model.landmark_vertices()}};
+}
+
+struct MadeSubject {
+    json truth;
+    std::vector<std::string> scans;
+    std::string facs_lines;
+};
+
+/// Everything about one scan: performance, exposure, photograph, files.
+std::string make_scan(const fs::path& folder, const FaceModel& model, const Subject& subject, const Task& task,
+                      const FaceWindow& window, const SynthesizeOptions& options, SynthesizeReport& report) {
+    const database::ScanId id{subject.name, task.expression.group, task.expression.code, task.repetition};
+    const std::string name = id.name();
+    const auto performance = perform(subject, task.expression, name, options.seed, options.variances);
+    auto made = scan_face(model, performance.vertices_mm, window, name, options.seed, options.scanner);
+    const auto image = photograph(model, subject, performance.vertices_mm, window, made, options.seed, options.scanner);
+
+    const fs::path stem = folder / subject.name / name;
+    made.scan.texture_file = name + ".png";
+    const auto labelled = database::to_bosphorus_labels(made.landmarks);
+    geometry::write_png(fs::path(stem).concat(".png"), image);
+    database::write_bnt(fs::path(stem).concat(".bnt"), database::to_bnt(made.scan));
+    database::write_lm3(fs::path(stem).concat(".lm3"), labelled);
+    database::write_lm2(fs::path(stem).concat(".lm2"),
+                        image_landmarks(made, labelled, options.scanner.texture_pixels_per_mm));
+
+    TrueScan truth;
+    truth.id = id;
+    truth.faces = model.faces();
+    truth.scanner_from_head = made.scanner_from_head;
+    for (const auto& vertex : performance.vertices_mm) truth.vertices_mm.emplace_back(made.scanner_from_head * vertex);
+    truth.displacement_mm = performance.displacement_mm;
+    truth.landmarks = made.true_landmarks;
+    truth.shape_weights = performance.weights;
+    truth.amplitude = performance.amplitude;
+    truth.asymmetry = performance.asymmetry;
+    write_true_scan(folder / "truth", truth);
+
+    static std::mutex mutex;
+    const std::scoped_lock lock(mutex);
+    ++report.scans;
+    report.valid_points += made.valid_points;
+    report.lost_grazing += made.lost_grazing;
+    report.lost_holes += made.lost_holes;
+    report.landmarks_marked += made.landmarks.size();
+    report.landmarks_invisible += made.true_landmarks.size() - made.landmarks.size();
+    if (options.on_scan_done) options.on_scan_done(name);
+    return facs_line(id, task.expression, performance.amplitude);
+}
+
+MadeSubject make_subject(const fs::path& folder, const FaceModel& model, const std::string& name,
+                         const std::vector<Task>& tasks, const SynthesizeOptions& options, SynthesizeReport& report) {
+    const Subject subject = draw_subject(model, name, options.seed, options.variances);
+    const FaceWindow window = face_window(model, subject.resting_mm);
+    std::vector<std::string> lines(tasks.size());
+    geometry::parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t)
+            lines[t] = make_scan(folder, model, subject, tasks[t], window, options, report);
+    });
+    MadeSubject made;
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+        made.scans.push_back(
+            database::ScanId{name, tasks[t].expression.group, tasks[t].expression.code, tasks[t].repetition}.name());
+        made.facs_lines += lines[t];
+    }
+    made.truth = {{"name", name},
+                  {"sex", subject.identity.sex == Sex::male ? "m" : "f"},
+                  {"identity_seed", subject.identity.seed},
+                  {"identity_coefficients", subject.identity.coefficients},
+                  {"measurements_mm", subject.identity.measurements_mm},
+                  {"amplitude", subject.amplitude},
+                  {"asymmetry", subject.asymmetry},
+                  {"mouth_width_ratio", subject.mouth_width_ratio},
+                  {"eye_distance_ratio", subject.eye_distance_ratio}};
+    return made;
+}
+
+}  // namespace
+
+void SynthesizeOptions::check() const {
+    if (subjects < 1 || subjects > 1000) throw InputError(fmt::format("subjects is {}; give 1 to 1000", subjects));
+    if (neutrals < 1 || neutrals > 10) throw InputError(fmt::format("neutrals is {}; give 1 to 10", neutrals));
+    variances.check();
+    scanner.check();
+    (void)make_expressions(expressions);
+}
+
+SynthesizeEstimate estimate_database(const FaceModel& model, const SynthesizeOptions& options) {
+    options.check();
+    SynthesizeEstimate estimate;
+    const auto tasks = plan_scans(model, options, estimate.skipped_expressions);
+    estimate.scans = tasks.size() * static_cast<std::size_t>(options.subjects);
+    const auto mean = model.neutral_mm(model.draw_identity(0, Sex::female, 0.0));
+    const auto window = face_window(model, mean);
+    const double area_mm2 = 4.0 * (window.half_width_mm + 6.0) * (window.half_height_mm + 6.0);
+    const double cells = area_mm2 / (options.scanner.spacing_mm * options.scanner.spacing_mm);
+    const double pixels =
+        1.3 * area_mm2 * options.scanner.texture_pixels_per_mm * options.scanner.texture_pixels_per_mm;
+    const double truth = 48.0 * static_cast<double>(mean.size()) + 17.0 * static_cast<double>(model.faces().size());
+    // 40 bytes per cell in the .bnt; PNG takes about 1.1 bytes per pixel of these pictures.
+    estimate.bytes =
+        static_cast<std::uintmax_t>(static_cast<double>(estimate.scans) * (40.0 * cells + 1.1 * pixels + truth));
+    estimate.core_seconds = static_cast<double>(estimate.scans) *
+                            (4e-7 * cells + 1.5e-7 * pixels + 1e-6 * static_cast<double>(mean.size()));
+    return estimate;
+}
+
+SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model, const SynthesizeOptions& options) {
+    options.check();
+    if (fs::exists(out) && (!fs::is_directory(out) || !fs::is_empty(out)))
+        throw InputError(fmt::format("{}: exists already; give a new folder or remove this one", out.string()));
+    SynthesizeReport report;
+    const auto tasks = plan_scans(model, options, report.skipped_expressions);
+    const fs::path place = fs::absolute(out).lexically_normal();
+    const fs::path folder = fs::path(place.has_filename() ? place : place.parent_path()).concat(".part");
+    fs::remove_all(folder);
+
+    std::vector<MadeSubject> subjects(static_cast<std::size_t>(options.subjects));
+    geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t s = begin; s < end; ++s)
+            subjects[s] = make_subject(folder, model, subject_name(static_cast<int>(s)), tasks, options, report);
+    });
+    report.subjects = subjects.size();
+
+    json subject_list = json::array(), scan_list = json::array();
+    std::string facs = "Synthetic FACS scores, from the strengths that were asked for\nname -> code+code+...\n";
+    for (const auto& subject : subjects) {
+        subject_list.push_back(subject.truth);
+        for (const auto& scan : subject.scans) scan_list.push_back(scan);
+        facs += subject.facs_lines;
+    }
+    const json truth = {{"schema", 1},
+                        {"frame", "mm; +x subject's left, +y up, +z out of the face"},
+                        {"seed", options.seed},
+                        {"expressions", options.expressions},
+                        {"variances", variances_json(options.variances)},
+                        {"scanner", scanner_json(options.scanner)},
+                        {"face_model", model_json(model)},
+                        {"subjects", subject_list},
+                        {"scans", scan_list}};
+    geometry::write_atomically(folder / "truth" / "truth.json", truth.dump() + "\n");
+    if (options.facs_codes) geometry::write_atomically(folder / "facscodes.lst", facs);
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) report.bytes += entry.file_size();
+    if (fs::exists(out)) fs::remove(out);
+    fs::rename(folder, out);
+    return report;
+}
+
+}  // namespace mimik::synthesis
