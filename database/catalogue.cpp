@@ -385,6 +385,7 @@ CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntr
     // Scans that left the database leave the catalogue.
     std::vector<std::string> gone;
     for (const auto& entry : database.scans) remembered.erase(entry.scan_file.string());
+    gone.reserve(remembered.size());
     for (const auto& [key, row] : remembered) gone.push_back(key);
     if (result.file.empty() || (changed.empty() && gone.empty())) return result;
     const std::string trouble = trouble_of([&] {

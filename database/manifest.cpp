@@ -46,7 +46,7 @@ std::string subject_name(const geometry::CsvReader& rows, const std::string& val
 }  // namespace
 
 std::string parse_sex(const geometry::CsvReader& rows, const std::string& value) {
-    const std::string word = geometry::lower_case(value);
+    std::string word = geometry::lower_case(value);
     if (word.empty() || word == "m" || word == "f") return word;
     if (word == "male" || word == "man") return "m";
     if (word == "female" || word == "woman") return "f";

@@ -137,6 +137,7 @@ std::vector<std::size_t> spikes_of_cloud(const geometry::RangeScan& scan, double
     if (points.size() < 3) return spikes;
     const geometry::PointIndex index(points);
     std::vector<double> distances_mm;
+    distances_mm.reserve(points.size());
     for (const auto& p : points) distances_mm.push_back(index.nearest(p, 2).back().distance_mm);
     std::vector<double> sorted = distances_mm;
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());

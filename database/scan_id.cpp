@@ -122,12 +122,12 @@ ScanId ScanId::mirrored() const {
 }
 
 std::weak_ordering ScanId::operator<=>(const ScanId& other) const {
-    if (const auto order = compare_ignoring_case(subject, other.subject); order != 0) return order;
-    if (const auto order = std::weak_ordering(other.neutral() <=> neutral()); order != 0) return order;
-    if (const auto order = compare_ignoring_case(group, other.group); order != 0) return order;
-    if (const auto order = std::weak_ordering(leading_number(code) <=> leading_number(other.code)); order != 0)
+    if (const auto order = compare_ignoring_case(subject, other.subject); std::is_neq(order)) return order;
+    if (const auto order = std::weak_ordering(other.neutral() <=> neutral()); std::is_neq(order)) return order;
+    if (const auto order = compare_ignoring_case(group, other.group); std::is_neq(order)) return order;
+    if (const auto order = std::weak_ordering(leading_number(code) <=> leading_number(other.code)); std::is_neq(order))
         return order;
-    if (const auto order = compare_ignoring_case(code, other.code); order != 0) return order;
+    if (const auto order = compare_ignoring_case(code, other.code); std::is_neq(order)) return order;
     return repetition <=> other.repetition;
 }
 

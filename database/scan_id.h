@@ -32,7 +32,7 @@ struct ScanId {
 
     /// By subject, neutral first, then group, code (numbers as numbers: 9 before 10), repetition.
     std::weak_ordering operator<=>(const ScanId& other) const;
-    bool operator==(const ScanId& other) const { return (*this <=> other) == 0; }
+    bool operator==(const ScanId& other) const { return std::is_eq(*this <=> other); }
 };
 
 /// Four fields separated by '_'; empty if the name is not of that form.

@@ -82,6 +82,9 @@ std::vector<NearestScanPoint> nearest_scan_points(const geometry::RangeScan& sca
     for (const auto& mark : landmarks.all()) {
         NearestScanPoint nearest{0, std::numeric_limits<double>::infinity()};
         for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
+            // Most points fall at the first coordinate.
+            const double dx = scan.points_mm[i].x() - mark.position_mm.x();
+            if (!(dx * dx < nearest.distance_mm)) continue;
             const double squared = (scan.points_mm[i] - mark.position_mm).squaredNorm();
             if (squared < nearest.distance_mm) nearest = {i, squared};
         }
@@ -142,7 +145,8 @@ FrameCorrelations frame_correlations(const geometry::RangeScan& scan) {
         }
         if (scan.organised()) {
             const auto cols = static_cast<std::size_t>(scan.cols);
-            y_row.add(p.y(), static_cast<double>(i / cols));
+            const std::size_t row = i / cols;
+            y_row.add(p.y(), static_cast<double>(row));
             x_column.add(p.x(), static_cast<double>(i % cols));
         }
     }
