@@ -115,9 +115,9 @@ bool encode_rows(std::vector<std::uint8_t>& bytes, PngState& state, const Image&
         return false;
     }
     png_set_write_fn(png, &bytes, append_output, nullptr);
-    // Measured on shaded faces and skin textures: level 3 with the Sub and Up filters is 3 times as fast as the
-    // default and about 5 % larger.
-    png_set_compression_level(png, 3);
+    // Against libpng's defaults: a shaded face of 960 x 520 in 14 instead of 63 ms, a noisy texture of 1600 x 1200 in
+    // 140 instead of 1660 ms, both about 20 % larger.
+    png_set_compression_level(png, 2);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
     png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                  PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);

@@ -347,7 +347,7 @@ void direct_vertices(Element& vertices, Mesh& mesh, ColourColumns& colours, cons
         attribute.components = static_cast<int>(components);
         attribute.values.resize(components * count);
         for (std::size_t c = 0; c < components; ++c) {
-            group.parts[c]->column = attribute.values.data() + c;
+            group.parts[c]->column = count > 0 ? attribute.values.data() + c : nullptr;
             group.parts[c]->column_stride = components;
         }
     }
@@ -439,6 +439,7 @@ namespace {
 std::vector<std::string> component_names(const VertexAttribute& attribute) {
     if (attribute.components == 1) return {attribute.name};
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(attribute.components));
     for (int c = 0; c < attribute.components; ++c)
         names.push_back(attribute.components <= 4 ? fmt::format("{}_{}", attribute.name, "xyzw"[c])
                                                   : fmt::format("{}_{}", attribute.name, c));

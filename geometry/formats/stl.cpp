@@ -86,6 +86,7 @@ void decode_ascii(std::span<const std::uint8_t> bytes, const std::string& name, 
             welder.add_corner(position);
             ++corners;
         } else if (keyword == "outer") {
+            if (in_loop) lines.fail("an 'outer loop' stands inside another; the 'endloop' is missing");
             in_loop = true;
             corners = 0;
         } else if (keyword == "endloop") {

@@ -224,6 +224,8 @@ TEST(Ply, errors_name_the_file_the_place_the_value_and_the_mend) {
                                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n2 0 0\n")),
                 HasSubstr("face 0 has 2 corners; a face needs at least 3"));
     EXPECT_THAT(refused(ply_xyz("ascii", "0", "end_header\n")), HasSubstr("there is no vertex in it"));
+    EXPECT_THAT(refused(ply_xyz("ascii", "0", "property float d_x\nproperty float d_y\nend_header\n")),
+                HasSubstr("there is no vertex in it"));
 }
 
 TEST(Ply, absurd_counts_are_refused_before_anything_is_allocated) {

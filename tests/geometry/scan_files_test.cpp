@@ -70,6 +70,8 @@ TEST(Stl, errors_name_line_and_value) {
     EXPECT_THAT(refused(MeshFormat::stl, head + "vertex 0 0 0\nendloop\n"),
                 HasSubstr("scan: line 5: a facet has 1 vertices"));
     EXPECT_THAT(refused(MeshFormat::stl, head + "vertex 0 0 0\n"), HasSubstr("the last facet has no 'endloop'"));
+    EXPECT_THAT(refused(MeshFormat::stl, head + "vertex 0 0 0\nouter loop\n"),
+                HasSubstr("scan: line 5: an 'outer loop' stands inside another"));
     EXPECT_THAT(refused(MeshFormat::stl, "solid x\nvertex 0 0 0\n"),
                 HasSubstr("scan: line 2: a vertex stands outside"));
     EXPECT_THAT(refused(MeshFormat::stl, "solid x\ncorner 0 0 0\n"),
