@@ -7,7 +7,9 @@ int main(int argc, char** argv) {
     int exit_code = mimik::cli::exit_done;
     mimik::cli::add_scans_command(app, exit_code);
     mimik::cli::add_distance_command(app, exit_code);
+    mimik::cli::add_evaluate_command(app, exit_code);
     mimik::cli::add_figure_command(app, exit_code);
+    mimik::cli::add_model_command(app, exit_code);
     mimik::cli::add_preprocess_command(app, exit_code);
     mimik::cli::add_synthesize_command(app, exit_code);
     mimik::cli::add_warp_command(app, exit_code);

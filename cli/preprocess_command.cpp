@@ -8,6 +8,8 @@
 
 #include "cli/command.h"
 #include "database/scan_database.h"
+#include "geometry/errors.h"
+#include "modeling/control_points.h"
 #include "preprocessing/workspace.h"
 
 namespace mimik::cli {
@@ -44,10 +46,20 @@ int run(Arguments& arguments) {
                                      megabytes, arguments.output);
         return exit_done;
     }
+    // Which part of a face an expression leaves alone is the catalogue's knowledge; codes it lacks get the general answer.
+    const auto stable_region = [](const database::ScanId& scan, const preprocessing::Face& neutral) {
+        if (scan.neutral()) return preprocessing::stable_on_every_face(neutral);
+        try {
+            return modeling::stable_vertices(modeling::builtin_catalogue(), scan.code, neutral.grid, neutral.landmarks,
+                                             neutral.average_from_scan);
+        } catch (const InputError&) {
+            return preprocessing::stable_on_every_face(neutral);
+        }
+    };
     preprocessing::PreprocessReport report;
     {
         Progress progress(arguments.common, "preprocess", scans.size());
-        report = preprocessing::preprocess_database(database, arguments.output, arguments.options, {},
+        report = preprocessing::preprocess_database(database, arguments.output, arguments.options, stable_region,
                                                     [&](const std::string& scan) { progress.advance(scan); });
     }
     if (arguments.common.json) {

@@ -1,0 +1,186 @@
+#include "animation/animate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "animation/combine.h"
+#include "geometry/errors.h"
+#include "geometry/point_index.h"
+
+namespace mimik::animation {
+
+using geometry::Point;
+using geometry::Vector;
+using modeling::ExpressionModel;
+
+AnimationOptions AnimationOptions::thesis() {
+    AnimationOptions options;
+    options.kernel = geometry::SplineKernel::r2_log_r2;
+    options.anchors = false;
+    options.snap_to_vertices = true;
+    options.border_mm = 0.0;
+    return options;
+}
+
+void AnimationOptions::check() const {
+    if (!(smoothing >= 0)) throw InputError(fmt::format("smoothing is {}; give 0 or more", smoothing));
+    if (!(border_mm >= 0)) throw InputError(fmt::format("border_mm is {}; give 0 (hard cut) or more", border_mm));
+}
+
+TargetFace::TargetFace(const preprocessing::Face& neutral, modeling::Frame frame, bool snapped_landmarks)
+    : face_(&neutral), frame_(frame), average_from_scan_(modeling::average_from_scan(neutral, frame)) {
+    landmarks_ = geometry::transformed(snapped_landmarks ? neutral.snapped_landmarks : neutral.landmarks, average_from_scan_);
+    mouth_width_mm_ = (landmarks_.position_mm("mouth_corner_left") - landmarks_.position_mm("mouth_corner_right")).norm();
+    vertices_mm_.reserve(neutral.grid.size());
+    for (std::size_t v = 0; v < neutral.grid.size(); ++v) {
+        vertices_mm_.emplace_back(average_from_scan_ * neutral.grid.vertices_mm[v]);
+        if (neutral.grid.inside(v)) inside_.push_back(static_cast<std::uint32_t>(v));
+    }
+    surface_ = std::make_shared<geometry::SurfaceIndex>(vertices_mm_, geometry::triangles(neutral.grid));
+}
+
+Point TargetFace::nearest_vertex(const Point& query_mm) const {
+    // One answer is asked for per control point: looking at every vertex costs less than building a tree.
+    double best = std::numeric_limits<double>::infinity();
+    std::uint32_t nearest = 0;
+    for (const auto v : inside_) {
+        const double d = (vertices_mm_[v] - query_mm).squaredNorm();
+        if (d < best) {
+            best = d;
+            nearest = v;
+        }
+    }
+    return vertices_mm_[nearest];
+}
+
+namespace {
+
+/// Controls closer than this would make the spline stiff against noise: the later one is merged into the first.
+constexpr double merge_mm = 0.5;
+
+struct Controls {
+    std::vector<Point> from, to;
+    std::vector<std::string> names;
+};
+
+Controls carry(const TargetFace& target, const ExpressionModel& model, const AnimationOptions& options,
+               std::vector<CarriedPoint>* points, std::vector<std::string>* remarks) {
+    std::vector<Point> source, image;
+    std::vector<std::string> names;
+    for (const auto& pair : geometry::pair_by_name(model.landmarks, target.landmarks()).pairs) {
+        if (std::any_of(source.begin(), source.end(),
+                        [&](const Point& p) { return (p - pair.source_mm).norm() < 1e-6; }))
+            continue;  // two landmarks on one vertex (closed lips): the first speaks for both
+        source.push_back(pair.source_mm);
+        image.push_back(pair.target_mm);
+        names.push_back(pair.name);
+    }
+    const auto target_from_model = geometry::ThinPlateSpline::fit(source, image, {.kernel = options.kernel}, names);
+
+    double ratio = 1.0;
+    if (options.mouth_ratio && model.moves_lower_face && !model.moves_upper_face && model.mouth_width_mm > 0)
+        ratio = target.mouth_width_mm() / model.mouth_width_mm;
+    const Eigen::Matrix3d scan_from_average = target.average_from_scan().linear().inverse();
+
+    Controls controls;
+    for (const auto& point : model.points) {
+        const bool anchor = point.kind == modeling::ControlKind::anchor;
+        if (anchor && !options.anchors) continue;
+        const Point carried = target_from_model(point.position_mm);
+        const Point on_face = options.snap_to_vertices ? target.nearest_vertex(carried)
+                                                       : target.surface().closest(carried).position_mm;
+        const Vector displacement = ratio * point.displacement_mm;
+        const auto near = std::find_if(controls.from.begin(), controls.from.end(),
+                                       [&](const Point& p) { return (p - on_face).norm() < merge_mm; });
+        if (near != controls.from.end()) {
+            if (remarks)
+                remarks->push_back(fmt::format("{}: '{}' falls on '{}' on this face and was left out", model.expression, point.name,
+                                               controls.names[static_cast<std::size_t>(near - controls.from.begin())]));
+            continue;
+        }
+        controls.from.push_back(on_face);
+        controls.to.push_back(on_face + displacement);
+        controls.names.push_back(point.name);
+        if (points)
+            points->push_back({point.name, point.kind, target.average_from_scan().inverse() * on_face,
+                               scan_from_average * displacement, (on_face - carried).norm()});
+    }
+    return controls;
+}
+
+}  // namespace
+
+std::vector<Vector> expression_field(const TargetFace& target, const ExpressionModel& model,
+                                     const AnimationOptions& options, std::vector<CarriedPoint>* points,
+                                     std::vector<std::string>* remarks) {
+    options.check();
+    if (model.frame != target.frame())
+        throw InputError(fmt::format("{}: the model is in the {} frame and the target in the other; model and animate with "
+                                     "the same normalisation",
+                                     model.expression, model.frame == modeling::Frame::affine ? "affine" : "similarity"));
+    const Controls controls = carry(target, model, options, points, remarks);
+    const auto warp = geometry::ThinPlateSpline::fit(controls.from, controls.to,
+                                                     {.kernel = options.kernel, .smoothing = options.smoothing}, controls.names);
+
+    // An emotion moves both halves; an AU of one half leaves the other alone.
+    std::vector<double> weights(target.vertices_mm().size(), 1.0);
+    if (model.moves_upper_face != model.moves_lower_face)
+        weights = modeling::region_weights(target.face().grid, target.face().landmarks, model.moves_lower_face, options.border_mm);
+    std::vector<std::uint32_t> moving;
+    std::vector<Point> positions;
+    for (std::uint32_t v = 0; v < target.vertices_mm().size(); ++v)
+        if (target.face().grid.inside(v) && weights[v] > 0) {
+            moving.push_back(v);
+            positions.push_back(target.vertices_mm()[v]);
+        }
+    std::vector<Point> warped(positions.size());
+    warp.apply(positions, warped);
+    std::vector<Vector> field(target.vertices_mm().size(), Vector::Zero());
+    for (std::size_t k = 0; k < moving.size(); ++k) field[moving[k]] = weights[moving[k]] * (warped[k] - positions[k]);
+    return field;
+}
+
+AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpression> expressions,
+                     const AnimationOptions& options) {
+    AnimatedFace result;
+    result.grid = target.face().grid;
+    const std::size_t n = result.grid.size();
+    const Eigen::Matrix3d scan_from_average = target.average_from_scan().linear().inverse();
+    for (const auto& [model, magnitude] : expressions) {
+        if (!std::isfinite(magnitude) || magnitude < 0)
+            throw InputError(fmt::format("magnitude of {} is {}; give 0 (neutral) or more", model->expression, magnitude));
+        if (magnitude > 1)
+            result.remarks.push_back(fmt::format("magnitude of {} is {}: beyond what the source did, so it exaggerates",
+                                                 model->expression, magnitude));
+        auto field = expression_field(target, *model, options, &result.points, &result.remarks);
+        for (auto& displacement : field) displacement = scan_from_average * displacement;
+        result.fields_mm.push_back(std::move(field));
+    }
+    result.displacement_mm.assign(n, Vector::Zero());
+    std::vector<Vector> pulls(expressions.size());
+    for (std::size_t v = 0; v < n; ++v) {
+        if (!result.grid.inside(v)) continue;
+        for (std::size_t k = 0; k < pulls.size(); ++k) pulls[k] = expressions[k].magnitude * result.fields_mm[k][v];
+        if (options.combination == Combination::parallel)
+            result.displacement_mm[v] = parallel_resultant(pulls);
+        else
+            for (const auto& pull : pulls) result.displacement_mm[v] += pull;
+        result.grid.vertices_mm[v] += result.displacement_mm[v];
+        result.largest_displacement_mm = std::max(result.largest_displacement_mm, result.displacement_mm[v].norm());
+    }
+    for (int row = 0; row < result.grid.rows; ++row)
+        for (int col = 0; col < result.grid.cols; ++col)
+            for (const auto& [r, c] : {std::pair{row + 1, col}, std::pair{row, col + 1}}) {
+                if (r >= result.grid.rows || c >= result.grid.cols) continue;
+                const auto a = result.grid.index(row, col), b = result.grid.index(r, c);
+                if (result.grid.inside(a) && result.grid.inside(b))
+                    result.largest_neighbour_step_mm =
+                        std::max(result.largest_neighbour_step_mm, (result.displacement_mm[a] - result.displacement_mm[b]).norm());
+            }
+    return result;
+}
+
+}  // namespace mimik::animation

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/quad_grid.h"
+#include "geometry/surface_index.h"
+#include "geometry/thin_plate_spline.h"
+#include "modeling/expression_model.h"
+#include "modeling/face_regions.h"
+#include "preprocessing/face.h"
+
+namespace mimik::animation {
+
+/// How several AUs at once become one displacement per vertex.
+enum class Combination {
+    sum,      ///< the displacements of the AUs add
+    parallel  ///< Bui's way: contractions that pull one point at the same time give a resultant inside the span of the
+              ///< pulls (combine.h has the formula); two equal AUs do not double
+};
+
+struct AnimationOptions {
+    geometry::SplineKernel kernel = geometry::SplineKernel::r;
+    double smoothing = 0.0;           ///< of the warp, unit of the kernel
+    bool anchors = true;              ///< the model's anchors hold still in the warp
+    bool mouth_ratio = true;          ///< Eq. 5.8: lower-face AUs scale with the mouth width
+    bool snap_to_vertices = false;    ///< carried points go to the nearest vertex (thesis), not the nearest surface point
+    double border_mm = 12.0;          ///< width over which an AU fades at the border of its region; 0: hard cut (thesis)
+    Combination combination = Combination::sum;
+
+    /// The thesis as printed: r^2 ln r^2, no anchors, hard cut between upper and lower face.
+    [[nodiscard]] static AnimationOptions thesis();
+    void check() const;
+};
+
+/// A neutral face made ready to be animated many times: its surface and landmarks in the average frame.
+class TargetFace {
+public:
+    TargetFace(const preprocessing::Face& neutral, modeling::Frame frame, bool snapped_landmarks = false);
+
+    [[nodiscard]] const preprocessing::Face& face() const { return *face_; }
+    [[nodiscard]] modeling::Frame frame() const { return frame_; }
+    [[nodiscard]] const geometry::Transform& average_from_scan() const { return average_from_scan_; }
+    [[nodiscard]] const geometry::Landmarks& landmarks() const { return landmarks_; }  ///< average frame
+    [[nodiscard]] double mouth_width_mm() const { return mouth_width_mm_; }            ///< average frame
+    /// Grid vertices in the average frame; those outside the face are NaN in z and stay where they are.
+    [[nodiscard]] std::span<const geometry::Point> vertices_mm() const { return vertices_mm_; }
+    [[nodiscard]] const geometry::SurfaceIndex& surface() const { return *surface_; }
+    [[nodiscard]] geometry::Point nearest_vertex(const geometry::Point& query_mm) const;
+
+private:
+    const preprocessing::Face* face_;
+    modeling::Frame frame_;
+    geometry::Transform average_from_scan_;
+    geometry::Landmarks landmarks_;
+    double mouth_width_mm_ = 0;
+    std::vector<geometry::Point> vertices_mm_;
+    std::vector<std::uint32_t> inside_;
+    std::shared_ptr<const geometry::SurfaceIndex> surface_;
+};
+
+struct WeightedExpression {
+    const modeling::ExpressionModel* model = nullptr;
+    double magnitude = 1.0;  ///< m of Eqs 5.8 and 5.10: 0 neutral, 1 as the source did it; above 1 exaggerates
+};
+
+/// One control point on the target, for figures and for those who want to know.
+struct CarriedPoint {
+    std::string name;
+    modeling::ControlKind kind = modeling::ControlKind::muscle;
+    geometry::Point position_mm;      ///< on the target's neutral face, scanner frame
+    geometry::Vector displacement_mm; ///< at magnitude 1, scanner frame
+    double projection_mm = 0.0;       ///< how far the spline's answer lay from the target's surface, average frame
+};
+
+struct AnimatedFace {
+    geometry::QuadGrid grid;                       ///< scanner frame of the target's neutral scan; origins as there
+    std::vector<geometry::Vector> displacement_mm; ///< per vertex, scanner frame
+    std::vector<std::vector<geometry::Vector>> fields_mm;  ///< of each expression alone at magnitude 1, scanner frame
+    std::vector<CarriedPoint> points;
+    std::vector<std::string> remarks;              ///< merged points, magnitudes above 1, ...
+    double largest_displacement_mm = 0.0;
+    double largest_neighbour_step_mm = 0.0;  ///< largest change of displacement between neighbouring vertices
+};
+
+/// The displacement of every vertex under one model at magnitude 1, average frame. The field at another magnitude m is m
+/// times this one: the spline is linear in the displacements of its controls.
+/// Carries the controls by the landmark spline (Eq. 5.7) and on to the surface, moves them by Eqs 5.8 / 5.10 and warps by
+/// the spline of Eq. 5.9.
+/// @throws InputError if model and target are in different frames; NumericalError from the splines.
+[[nodiscard]] std::vector<geometry::Vector> expression_field(const TargetFace& target, const modeling::ExpressionModel& model,
+                                                             const AnimationOptions& options,
+                                                             std::vector<CarriedPoint>* points = nullptr,
+                                                             std::vector<std::string>* remarks = nullptr);
+
+/// Animates a neutral face with one or more expressions.
+[[nodiscard]] AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpression> expressions,
+                                   const AnimationOptions& options = {});
+
+}  // namespace mimik::animation

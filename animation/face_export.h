@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "animation/animate.h"
+#include "geometry/image.h"
+#include "geometry/mesh.h"
+
+namespace mimik::animation {
+
+enum class OutputFrame { scanner, average };
+
+struct ExportOptions {
+    OutputFrame frame = OutputFrame::scanner;
+    geometry::BridgedVertices bridged = geometry::BridgedVertices::leave_out;  ///< quads over holes: not measurements
+};
+
+/// The animated face as a mesh: quads of the grid, texture coordinates, attributes `displacement_mm` (3 per vertex, in
+/// the frame of the mesh) and `origin` (1 measured, 2 bridged). Vertices outside the face (and bridged ones, if they are
+/// left out) are dropped, the order of the rest is kept.
+[[nodiscard]] geometry::Mesh to_mesh(const AnimatedFace& animated, const TargetFace& target,
+                                     const ExportOptions& options = {});
+
+/// One morph target of the GLB: an expression at magnitude 1 and how far it is set.
+struct NamedMagnitude {
+    std::string name;  ///< "AU12_L" or the ARKit name
+    double magnitude = 1.0;
+};
+
+/// Writes .ply, .obj, .vtp (the animated face; texture copied beside it as PNG) or .glb (the neutral face with one morph
+/// target per expression set to its magnitude, metres, texture embedded).
+/// @param names  one per expression, in the order of `animated.fields_mm`; used by GLB only.
+/// @throws InputError for another extension, or if the file cannot be written.
+void write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated, const TargetFace& target,
+                         std::span<const NamedMagnitude> names, const std::optional<geometry::Image>& texture,
+                         const ExportOptions& options = {});
+
+}  // namespace mimik::animation

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "animation/animate.h"
+#include "animation/face_export.h"
+#include "cli/command.h"
+#include "cli/method_options.h"
+#include "geometry/errors.h"
+#include "modeling/source_expression.h"
+
+namespace mimik::cli {
+namespace {
+
+struct Arguments {
+    Common common;
+    MethodArguments method;
+    std::string workspace, source = "mean", target, output, frame = "scanner", combine = "sum";
+    std::vector<std::string> action_units;
+    bool keep_bridged = false;
+};
+
+int run(Arguments& arguments) {
+    const preprocessing::Workspace workspace(arguments.workspace);
+    const auto catalogue = arguments.method.catalogue();
+    for (const auto& subject : {arguments.source, arguments.target})
+        if (workspace.hidden(subject))
+            throw InputError(fmt::format("subject '{}' stands in unallowed_subjects.txt and must not be shown; choose another", subject));
+
+    const auto model_options = arguments.method.model_options();
+    auto animation_options = arguments.method.animation_options();
+    animation_options.combination =
+        arguments.combine == "parallel" ? animation::Combination::parallel : animation::Combination::sum;
+
+    modeling::ExpressionSource source{arguments.source, {arguments.target}};
+    for (const auto& subject : workspace.subjects())
+        if (workspace.hidden(subject)) source.excluded.push_back(subject);
+
+    const auto neutral = workspace.face(workspace.neutral(arguments.target));
+    const animation::TargetFace target(neutral, model_options.frame, arguments.method.thesis());
+    std::vector<modeling::ExpressionModel> models;
+    std::vector<animation::WeightedExpression> expressions;
+    std::vector<animation::NamedMagnitude> names;
+    for (const auto& text : arguments.action_units) {
+        const auto selection = modeling::parse_selection(text);
+        models.push_back(modeling::model_from_workspace(workspace, catalogue, selection.code, source, model_options));
+        names.push_back({models.back().expression, selection.magnitude});
+    }
+    for (std::size_t k = 0; k < models.size(); ++k) expressions.push_back({&models[k], names[k].magnitude});
+    const auto animated = animation::animate(target, expressions, animation_options);
+
+    animation::ExportOptions export_options;
+    export_options.frame =
+        arguments.frame == "average" ? animation::OutputFrame::average : animation::OutputFrame::scanner;
+    export_options.bridged =
+        arguments.keep_bridged ? geometry::BridgedVertices::keep : geometry::BridgedVertices::leave_out;
+    std::optional<geometry::Image> texture;
+    std::vector<std::string> remarks = animated.remarks;
+    if (!neutral.texture_file.empty()) {
+        if (std::filesystem::exists(neutral.texture_file))
+            texture = geometry::read_png(neutral.texture_file);
+        else
+            remarks.push_back(fmt::format("texture {} is gone, so the mesh has none", neutral.texture_file.string()));
+    }
+    animation::write_animated_face(arguments.output, animated, target, names, texture, export_options);
+
+    for (const auto& model : models)
+        for (const auto& reason : model.left_out) remarks.push_back(fmt::format("{}: {}", model.expression, reason));
+    if (arguments.common.json) {
+        auto list = nlohmann::json::array();
+        for (std::size_t k = 0; k < models.size(); ++k)
+            list.push_back({{"expression", names[k].name}, {"magnitude", names[k].magnitude}, {"sources", models[k].sources},
+                            {"points", models[k].points.size()},
+                            {"largest_displacement_mm", models[k].largest_displacement_mm()}});
+        std::cout << nlohmann::json{{"schema", 1},
+                                    {"target", neutral.id.name()},
+                                    {"source", arguments.source},
+                                    {"method", arguments.method.name},
+                                    {"frame", arguments.frame},
+                                    {"units", "mm"},
+                                    {"expressions", list},
+                                    {"largest_displacement_mm", animated.largest_displacement_mm},
+                                    {"largest_neighbour_step_mm", animated.largest_neighbour_step_mm},
+                                    {"remarks", remarks},
+                                    {"output", arguments.output}}
+                         .dump(1)
+                  << '\n';
+    } else {
+        if (!arguments.common.quiet)
+            for (const auto& remark : remarks) std::cerr << "note: " << remark << '\n';
+        std::cout << fmt::format("{}: {} from {} on {}, up to {:.1f} mm\n", arguments.output,
+                                 fmt::join(arguments.action_units, " + "), arguments.source, neutral.id.name(),
+                                 animated.largest_displacement_mm);
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+void add_animate_command(CLI::App& app, int& exit_code) {
+    auto* command = app.add_subcommand("animate", "Put expressions of one subject, or of the mean of all, on a neutral face");
+    auto arguments = std::make_shared<Arguments>();
+    command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
+    command->add_option("--source", arguments->source, "Subject whose expression is taken, or mean (of all but the target)")
+        ->capture_default_str();
+    command->add_option("--target", arguments->target, "Subject whose first neutral face is animated")->required();
+    command->add_option("--au", arguments->action_units, "AU or emotion, side and magnitude: 12, 12:0.5, 4L, HAPPY:0.8; repeat")
+        ->required();
+    command->add_option("--combine", arguments->combine, "Several AUs: sum, or parallel (equal pulls do not double)")
+        ->check(CLI::IsMember({"sum", "parallel"}))
+        ->capture_default_str();
+    command->add_option("--frame", arguments->frame, "Millimetres of the target's own scan, or of the average face")
+        ->check(CLI::IsMember({"scanner", "average"}))
+        ->capture_default_str();
+    command->add_flag("--keep-bridged", arguments->keep_bridged, "Keep surface over holes (attribute origin = 2)");
+    command->add_option("-o,--output", arguments->output, ".ply, .obj, .vtp or .glb")->required();
+    arguments->method.add_to(*command);
+    add_common_options(*command, arguments->common);
+    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace mimik::cli

@@ -1,0 +1,81 @@
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/method_options.h"
+#include "evaluation/experiment.h"
+#include "evaluation/score_table.h"
+#include "geometry/file.h"
+
+namespace mimik::cli {
+namespace {
+
+struct Arguments {
+    Common common;
+    std::string workspace, output, catalogue_file;
+    std::vector<std::string> methods = {"thesis", "default", "mean"};
+    evaluation::ExperimentOptions options;
+    bool no_reference = false, no_whole_face = false, dry_run = false;
+};
+
+int run(Arguments& arguments) {
+    const preprocessing::Workspace workspace(arguments.workspace);
+    const auto catalogue = arguments.catalogue_file.empty() ? modeling::builtin_catalogue()
+                                                            : modeling::read_catalogue(arguments.catalogue_file);
+    auto& options = arguments.options;
+    options.methods.clear();
+    for (const auto& name : arguments.methods) options.methods.push_back(evaluation::method_by_name(name));
+    options.reference = !arguments.no_reference;
+    options.whole_face = !arguments.no_whole_face;
+    const std::size_t steps = evaluation::experiment_steps(workspace, options);
+    if (arguments.dry_run) {
+        const auto subjects = workspace.subjects().size();
+        const double sources = options.max_sources > 0 ? options.max_sources : static_cast<double>(subjects) - 1;
+        const double cases = static_cast<double>(steps) * sources * static_cast<double>(options.methods.size());
+        std::cout << fmt::format("about {:.0f} transfers, {:.0f} s on one core, less than 1 MB of tables\n", cases, 0.03 * cases);
+        return exit_done;
+    }
+    evaluation::ExperimentReport report;
+    {
+        Progress progress(arguments.common, "evaluate", steps);
+        report = evaluation::run_experiment(workspace, catalogue, options,
+                                            [&](const std::string& what) { progress.advance(what); });
+    }
+    const auto markdown = evaluation::to_markdown(report), json = evaluation::to_json(report);
+    if (!arguments.output.empty()) {
+        const std::filesystem::path folder = arguments.output;
+        geometry::write_atomically(folder / "scores.md", markdown);
+        geometry::write_atomically(folder / "scores.csv", evaluation::to_csv(report));
+        geometry::write_atomically(folder / "scores.json", json);
+    }
+    std::cout << (arguments.common.json ? json : markdown);
+    if (!arguments.common.json && !arguments.common.quiet) std::cerr << fmt::format("{:.1f} s\n", report.seconds);
+    return report.failures.empty() ? exit_done : exit_done_with_failures;
+}
+
+}  // namespace
+
+void add_evaluate_command(CLI::App& app, int& exit_code) {
+    auto* command = app.add_subcommand("evaluate", "Score methods on every ordered pair of subjects beside doing nothing");
+    auto arguments = std::make_shared<Arguments>();
+    auto& options = arguments->options;
+    command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
+    command->add_option("--method", arguments->methods, "thesis, default (one source), mean (of all other subjects)")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--expression", options.expressions, "AUs and emotions to score")->delimiter(',')->capture_default_str();
+    command->add_option("--max-sources", options.max_sources, "Sources per target; 0 = all other subjects")->capture_default_str();
+    command->add_option("--catalogue", arguments->catalogue_file, "Another FACS catalogue (TOML) than the built-in one")
+        ->check(CLI::ExistingFile);
+    command->add_flag("--no-reference", arguments->no_reference, "Leave out the true-field reference of synthetic databases");
+    command->add_flag("--no-whole-face", arguments->no_whole_face, "Score the active zone only (faster)");
+    command->add_option("-o,--output", arguments->output, "Folder for scores.md, scores.csv and scores.json");
+    command->add_flag("--dry-run", arguments->dry_run, "Say time and disk, do nothing");
+    add_common_options(*command, arguments->common);
+    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace mimik::cli

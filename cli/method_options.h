@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "animation/animate.h"
+#include "modeling/expression_model.h"
+#include "modeling/facs_catalogue.h"
+
+namespace mimik::cli {
+
+/// --method thesis|default and the single switches that differ from it; shared by the commands that model and animate.
+struct MethodArguments {
+    std::string name = "default";
+    std::string catalogue_file;  ///< empty: the catalogue that Mimik ships
+    std::string kernel;          ///< empty: as the method has it
+    bool no_anchors = false;
+
+    void add_to(CLI::App& command);
+    [[nodiscard]] bool thesis() const { return name == "thesis"; }
+    [[nodiscard]] modeling::FacsCatalogue catalogue() const;
+    [[nodiscard]] modeling::ModelOptions model_options() const;
+    [[nodiscard]] animation::AnimationOptions animation_options() const;
+};
+
+}  // namespace mimik::cli

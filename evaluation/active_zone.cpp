@@ -1,0 +1,107 @@
+#include "evaluation/active_zone.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+#include "geometry/point_index.h"
+#include "geometry/surface_index.h"
+#include "geometry/thin_plate_spline.h"
+#include "modeling/control_points.h"
+
+namespace mimik::evaluation {
+
+using geometry::Point;
+using geometry::Vector;
+using preprocessing::AverageFace;
+using preprocessing::Face;
+
+namespace {
+
+geometry::ThinPlateSpline landmark_spline(const geometry::Landmarks& from, const geometry::Landmarks& to) {
+    std::vector<Point> source, target;
+    for (const auto& pair : geometry::pair_by_name(from, to).pairs) {
+        source.push_back(pair.source_mm);
+        target.push_back(pair.target_mm);
+    }
+    return geometry::ThinPlateSpline::fit(source, target);
+}
+
+constexpr double rim_mm = 5.0;  // five cells beyond the average face's border: no zone is known there
+
+}  // namespace
+
+std::vector<Point> average_vertices_on(const AverageFace& average, const Face& face) {
+    std::vector<Point> vertices;
+    for (std::size_t v = 0; v < average.grid.size(); ++v)
+        vertices.push_back(average.grid.inside(v) ? average.grid.vertices_mm[v] : Point(Point::Zero()));
+    landmark_spline(average.landmarks, face.landmarks).apply(vertices, vertices);
+    return vertices;
+}
+
+ActiveZone active_zone_from_truth(const std::string& expression, const AverageFace& average,
+                                  std::span<const TrueSubject> subjects, double share) {
+    if (subjects.empty()) throw InputError(fmt::format("{}: no subject with a truth shows it", expression));
+    std::vector<Vector> sum(average.grid.size(), Vector::Zero());
+    for (const auto& subject : subjects) {
+        const auto& neutral = *subject.true_neutral;
+        const geometry::SurfaceIndex surface(neutral.vertices_mm, geometry::triangulate(neutral.faces));
+        const auto triangles = surface.triangles();
+        const auto on_face = average_vertices_on(average, *subject.neutral);
+        const auto hits = surface.closest(on_face);
+        const Eigen::Matrix3d average_from_head =
+            subject.neutral->average_from_scan.linear() * neutral.scanner_from_head.linear();
+        for (std::size_t v = 0; v < sum.size(); ++v) {
+            if (!average.grid.inside(v)) continue;
+            const auto& t = triangles[hits[v].triangle];
+            Vector displacement = Vector::Zero();
+            for (std::size_t k = 0; k < 3; ++k)
+                displacement += hits[v].barycentric[static_cast<Eigen::Index>(k)] * subject.true_expression->displacement_mm[t[k]];
+            sum[v] += average_from_head * displacement;
+        }
+    }
+    ActiveZone zone;
+    zone.expression = expression;
+    double largest = 0;
+    for (const auto& total : sum) {
+        zone.displacement_mm.push_back(total.norm() / static_cast<double>(subjects.size()));
+        largest = std::max(largest, zone.displacement_mm.back());
+    }
+    for (std::size_t v = 0; v < sum.size(); ++v)
+        zone.active.push_back(average.grid.inside(v) && zone.displacement_mm[v] > share * largest);
+    return zone;
+}
+
+ActiveZone active_zone_from_catalogue(const std::string& expression, const AverageFace& average,
+                                      const modeling::FacsCatalogue& catalogue) {
+    const modeling::ExpressionZone drawn(catalogue, expression, average.landmarks);
+    ActiveZone zone;
+    zone.expression = expression;
+    for (std::size_t v = 0; v < average.grid.size(); ++v)
+        zone.active.push_back(average.grid.inside(v) && drawn.distance(average.grid.vertices_mm[v]) <= 0);
+    return zone;
+}
+
+std::vector<char> carry_zone(const ActiveZone& zone, const AverageFace& average, const Face& face) {
+    std::vector<Point> known;
+    std::vector<std::size_t> place;
+    for (std::size_t v = 0; v < average.grid.size(); ++v)
+        if (average.grid.inside(v)) {
+            known.push_back(average.grid.vertices_mm[v]);
+            place.push_back(v);
+        }
+    const geometry::PointIndex index(known);
+    std::vector<Point> vertices;
+    for (std::size_t v = 0; v < face.grid.size(); ++v)
+        vertices.push_back(face.grid.inside(v) ? face.grid.vertices_mm[v] : Point(Point::Zero()));
+    landmark_spline(face.landmarks, average.landmarks).apply(vertices, vertices);
+    const auto nearest = index.nearest(vertices);
+    std::vector<char> active(face.grid.size(), 0);
+    for (std::size_t v = 0; v < active.size(); ++v)
+        active[v] = face.grid.inside(v) && nearest[v].distance_mm < rim_mm && zone.active[place[nearest[v].index]];
+    return active;
+}
+
+}  // namespace mimik::evaluation

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "animation/animate.h"
+#include "modeling/expression_model.h"
+#include "modeling/facs_catalogue.h"
+#include "preprocessing/workspace.h"
+
+namespace mimik::evaluation {
+
+/// Three kinds of row, never mixed (what a method may know beside the target's neutral face).
+enum class RowKind {
+    one_source,  ///< one other subject's neutral and expression, nothing else
+    mean,        ///< every subject but the target
+};
+
+/// A method under test: how an expression is modelled and put on a face.
+struct Method {
+    std::string name;
+    RowKind kind = RowKind::one_source;
+    modeling::ModelOptions model;
+    animation::AnimationOptions animation;
+    double magnitude = 1.0;
+};
+
+/// "thesis" (as printed), "default" (one source), "mean" (of all other subjects on the average face). @throws InputError.
+[[nodiscard]] Method method_by_name(const std::string& name);
+
+struct ExperimentOptions {
+    std::vector<std::string> expressions = {"1", "2", "4", "12", "14", "15", "17", "20", "12L"};  ///< the thesis's nine
+    std::vector<Method> methods = {method_by_name("thesis"), method_by_name("default"), method_by_name("mean")};
+    bool reference = true;   ///< true-field reference rows, where the database has a truth
+    bool whole_face = true;  ///< second figure over all measured vertices
+    int max_sources = 0;     ///< per target, the next ones in the list after it; 0 = all other subjects
+};
+
+/// One method on one expression.
+struct Score {
+    double explained = 0.0;         ///< 1 - sum err(method) / sum err(doing nothing), active zone
+    double explained_median = 0.0;  ///< of 1 - err / err(nothing) over the cases
+    double explained_whole = 0.0;   ///< the same over the whole face
+    double error_mm = 0.0;          ///< mean over cases
+    double nothing_mm = 0.0;
+    double true_error_mm = -1.0;    ///< mean 3D distance to the true position of the same material point; -1: no truth
+    double nothing_true_mm = -1.0;
+    double largest_step_mm = 0.0;   ///< largest crack between neighbouring vertices, mean over cases
+    std::size_t cases = 0;
+    std::size_t worse_than_nothing = 0;
+    std::size_t left_out_vertices = 0;  ///< scored as doing nothing
+};
+
+struct MethodScores {
+    std::string method;
+    RowKind kind = RowKind::one_source;
+    bool reference = false;
+    std::map<std::string, Score> per_expression;
+    double explained = 0.0;        ///< mean over the expressions
+    double explained_median = 0.0;
+    double explained_whole = 0.0;
+    std::optional<double> share;   ///< explained / explained by the true field of the same kind
+};
+
+struct ExperimentReport {
+    std::vector<std::string> subjects;
+    std::vector<std::string> expressions;
+    std::string zones;      ///< "truth" or "catalogue"
+    std::string alignment;  ///< "true pose" or "ICP on the stable region"
+    std::vector<MethodScores> rows;
+    std::vector<std::string> failures;  ///< cases that gave no answer, with the reason; scored as doing nothing
+    double seconds = 0.0;
+};
+
+/// Scores methods on every ordered pair source -> target of a workspace, as docs/algorithms/scoring.md defines it.
+/// Subjects that must not be shown take part in no case. @throws InputError if fewer than 3 subjects show an expression.
+[[nodiscard]] ExperimentReport run_experiment(const preprocessing::Workspace& workspace,
+                                              const modeling::FacsCatalogue& catalogue,
+                                              const ExperimentOptions& options = {},
+                                              const std::function<void(const std::string&)>& progress = {});
+
+/// How many steps `progress` will be told about.
+[[nodiscard]] std::size_t experiment_steps(const preprocessing::Workspace& workspace, const ExperimentOptions& options);
+
+}  // namespace mimik::evaluation

@@ -1,0 +1,135 @@
+#include "evaluation/score_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace mimik::evaluation {
+namespace {
+
+std::string label(const std::string& expression) {
+    const bool number = !expression.empty() && expression.front() >= '0' && expression.front() <= '9';
+    return number ? "AU" + expression : expression;
+}
+
+const char* kind_name(RowKind kind) { return kind == RowKind::mean ? "mean" : "one source"; }
+
+struct Pooled {
+    std::size_t cases = 0, worse = 0;
+};
+
+Pooled pooled(const MethodScores& row) {
+    Pooled total;
+    for (const auto& [expression, score] : row.per_expression) {
+        total.cases += score.cases;
+        total.worse += score.worse_than_nothing;
+    }
+    return total;
+}
+
+std::string optional_number(double value) { return value < 0 ? "" : fmt::format("{:.3f}", value); }
+
+}  // namespace
+
+std::string to_markdown(const ExperimentReport& report) {
+    std::string text = fmt::format(
+        "Explained fraction: 1 - error / error of doing nothing, mean unsigned distance in the active zone to the real "
+        "expressive scan ({} subjects, zones from the {}, alignment by {}).\n\n",
+        report.subjects.size(), report.zones, report.alignment);
+    text += "| method | kind |";
+    std::string rule = "| --- | --- |";
+    for (const auto& expression : report.expressions) {
+        text += fmt::format(" {} |", label(expression));
+        rule += " ---: |";
+    }
+    text += " mean | median case | share | whole face | worse than nothing |\n" + rule + " ---: | ---: | ---: | ---: | ---: |\n";
+    for (const auto& row : report.rows) {
+        text += fmt::format("| {} | {} |", row.reference ? "*" + row.method + "*" : row.method, kind_name(row.kind));
+        for (const auto& expression : report.expressions) text += fmt::format(" {:.2f} |", row.per_expression.at(expression).explained);
+        const auto total = pooled(row);
+        text += fmt::format(" **{:.3f}** | {:.3f} | {} | {:.2f} | {:.1f} % of {} |\n", row.explained, row.explained_median,
+                            row.share ? fmt::format("{:.2f}", *row.share) : "", row.explained_whole,
+                            total.cases ? 100.0 * static_cast<double>(total.worse) / static_cast<double>(total.cases) : 0.0,
+                            total.cases);
+    }
+    text += "\nMean error in mm (distance to the real scan / to the true position of the same skin point):\n\n| method | kind |";
+    for (const auto& expression : report.expressions) text += fmt::format(" {} |", label(expression));
+    text += "\n| --- | --- |";
+    for (std::size_t k = 0; k < report.expressions.size(); ++k) text += " ---: |";
+    text += "\n| doing nothing | |";
+    const auto cell = [](double surface_mm, double true_mm) {
+        return true_mm < 0 ? fmt::format(" {:.2f} |", surface_mm) : fmt::format(" {:.2f} / {:.2f} |", surface_mm, true_mm);
+    };
+    for (const auto& expression : report.expressions) {
+        const auto& score = report.rows.front().per_expression.at(expression);
+        text += cell(score.nothing_mm, score.nothing_true_mm);
+    }
+    text += "\n";
+    for (const auto& row : report.rows) {
+        text += fmt::format("| {} | {} |", row.reference ? "*" + row.method + "*" : row.method, kind_name(row.kind));
+        for (const auto& expression : report.expressions) {
+            const auto& score = row.per_expression.at(expression);
+            text += cell(score.error_mm, score.true_error_mm);
+        }
+        text += "\n";
+    }
+    if (!report.failures.empty()) {
+        text += fmt::format("\n{} case(s) without an answer, scored as doing nothing:\n\n", report.failures.size());
+        for (const auto& failure : report.failures) text += "- " + failure + "\n";
+    }
+    return text;
+}
+
+std::string to_csv(const ExperimentReport& report) {
+    std::string text =
+        "method,kind,reference,expression,explained,explained_median,explained_whole_face,error_mm,nothing_mm,true_error_mm,"
+        "nothing_true_mm,largest_step_mm,cases,worse_than_nothing,left_out_vertices\n";
+    for (const auto& row : report.rows)
+        for (const auto& expression : report.expressions) {
+            const auto& s = row.per_expression.at(expression);
+            text += fmt::format("\"{}\",{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{},{},{}\n", row.method,
+                                kind_name(row.kind), row.reference ? 1 : 0, expression, s.explained, s.explained_median,
+                                s.explained_whole, s.error_mm, s.nothing_mm, optional_number(s.true_error_mm),
+                                optional_number(s.nothing_true_mm), s.largest_step_mm, s.cases, s.worse_than_nothing,
+                                s.left_out_vertices);
+        }
+    return text;
+}
+
+std::string to_json(const ExperimentReport& report) {
+    auto rows = nlohmann::json::array();
+    for (const auto& row : report.rows) {
+        nlohmann::json scores;
+        for (const auto& [expression, s] : row.per_expression) {
+            scores[expression] = {{"explained", s.explained},
+                                  {"explained_median", s.explained_median},
+                                  {"explained_whole_face", s.explained_whole},
+                                  {"error_mm", s.error_mm},
+                                  {"nothing_mm", s.nothing_mm},
+                                  {"largest_step_mm", s.largest_step_mm},
+                                  {"cases", s.cases},
+                                  {"worse_than_nothing", s.worse_than_nothing},
+                                  {"left_out_vertices", s.left_out_vertices}};
+            scores[expression]["true_error_mm"] = s.true_error_mm < 0 ? nlohmann::json() : nlohmann::json(s.true_error_mm);
+        }
+        rows.push_back({{"method", row.method},
+                        {"kind", kind_name(row.kind)},
+                        {"reference", row.reference},
+                        {"explained", row.explained},
+                        {"explained_median", row.explained_median},
+                        {"explained_whole_face", row.explained_whole},
+                        {"share", row.share ? nlohmann::json(*row.share) : nlohmann::json()},
+                        {"expressions", scores}});
+    }
+    return nlohmann::json{{"schema", 1},
+                          {"subjects", report.subjects},
+                          {"expressions", report.expressions},
+                          {"zones", report.zones},
+                          {"alignment", report.alignment},
+                          {"rows", rows},
+                          {"failures", report.failures}}
+               .dump(1) +
+           "\n";
+}
+
+}  // namespace mimik::evaluation

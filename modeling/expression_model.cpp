@@ -1,0 +1,272 @@
+#include "modeling/expression_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/point_index.h"
+#include "geometry/surface_index.h"
+#include "preprocessing/json_values.h"
+
+namespace mimik::modeling {
+
+using geometry::Landmarks;
+using geometry::Point;
+using geometry::ThinPlateSpline;
+using geometry::Vector;
+using preprocessing::AverageFace;
+using preprocessing::Face;
+
+const geometry::Transform& average_from_scan(const Face& face, Frame frame) {
+    return frame == Frame::affine ? face.average_from_scan_affine : face.average_from_scan;
+}
+
+ModelOptions ModelOptions::thesis() {
+    ModelOptions options;
+    options.frame = Frame::affine;
+    options.kernel = geometry::SplineKernel::r2_log_r2;
+    options.anchors = false;
+    options.coverage_points = false;
+    options.snap_to_vertices = true;
+    options.place_on_average = false;
+    return options;
+}
+
+void ModelOptions::check() const {
+    if (!(smoothing >= 0))
+        throw InputError(fmt::format("smoothing is {}; give 0 (pass through every landmark) or more", smoothing));
+}
+
+double ExpressionModel::largest_displacement_mm() const {
+    double largest = 0;
+    for (const auto& point : points) largest = std::max(largest, point.displacement_mm.norm());
+    return largest;
+}
+
+namespace {
+
+/// A face's surface in the average frame, asked for nearest points one way or the other.
+class NormalisedSurface {
+public:
+    NormalisedSurface(const geometry::QuadGrid& grid, const geometry::Transform& average_from_scan,
+                      geometry::BridgedVertices bridged) {
+        for (std::size_t v = 0; v < grid.size(); ++v) {
+            vertices_.push_back(grid.inside(v) ? Point(average_from_scan * grid.vertices_mm[v]) : Point(Point::Zero()));
+            if (grid.inside(v)) inside_.push_back(vertices_.back());
+        }
+        surface_.emplace(vertices_, geometry::triangles(grid, bridged));
+    }
+    [[nodiscard]] Point nearest(const Point& query, bool vertex) const {
+        if (!vertex) return surface_->closest(query).position_mm;
+        if (!index_) index_.emplace(inside_);
+        return inside_[index_->nearest(query).index];
+    }
+    [[nodiscard]] const geometry::SurfaceIndex& surface() const { return *surface_; }
+
+private:
+    std::vector<Point> vertices_, inside_;
+    std::optional<geometry::SurfaceIndex> surface_;
+    mutable std::optional<geometry::PointIndex> index_;
+};
+
+/// Pairs by name; two landmarks on one vertex (closed lips) would make the system singular: the first speaks for both.
+struct Correspondences {
+    std::vector<Point> from, to;
+    std::vector<std::string> names;
+
+    void add(const std::string& name, const Point& source, const Point& target) {
+        for (const auto& p : from)
+            if ((p - source).norm() < 1e-6) return;
+        from.push_back(source);
+        to.push_back(target);
+        names.push_back(name);
+    }
+    void add(const Landmarks& source, const Landmarks& target) {
+        for (const auto& pair : geometry::pair_by_name(source, target).pairs) add(pair.name, pair.source_mm, pair.target_mm);
+    }
+    [[nodiscard]] ThinPlateSpline spline(const ModelOptions& options) const {
+        return ThinPlateSpline::fit(from, to, {.kernel = options.kernel, .smoothing = options.smoothing}, names);
+    }
+};
+
+std::string expression_name(const FacsCatalogue& catalogue, const std::string& expression, const std::vector<SidedUnit>& units) {
+    for (const auto& emotion : catalogue.emotions())
+        if (emotion.action_units.size() == units.size() && units.size() > 1) {
+            std::string code = expression;
+            std::transform(code.begin(), code.end(), code.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+            return code;
+        }
+    std::string name;
+    for (const auto& sided : units) {
+        name += fmt::format("{}AU{}", name.empty() ? "" : "+", sided.unit->number);
+        if (sided.side != database::Side::both) name += sided.side == database::Side::left ? "_L" : "_R";
+    }
+    return name;
+}
+
+double mouth_width(const Landmarks& landmarks) {
+    return (landmarks.position_mm("mouth_corner_left") - landmarks.position_mm("mouth_corner_right")).norm();
+}
+
+bool wanted(ControlKind kind, const ModelOptions& options) {
+    if (kind == ControlKind::wrinkle) return options.wrinkle_points;
+    if (kind == ControlKind::coverage) return options.coverage_points;
+    return true;
+}
+
+}  // namespace
+
+ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::string& expression, const AverageFace& average,
+                                   const Face& neutral, const Face& expressive, const ModelOptions& options) {
+    options.check();
+    const auto units = catalogue.resolve(expression);
+    ExpressionModel model;
+    model.expression = expression_name(catalogue, expression, units);
+    model.moves_upper_face = model.moves_lower_face = false;
+    for (const auto& sided : units) (sided.unit->lower_face ? model.moves_lower_face : model.moves_upper_face) = true;
+    model.frame = options.frame;
+    model.sources = {neutral.id.name(), expressive.id.name()};
+
+    const auto& to_average = average_from_scan(neutral, options.frame);
+    const auto& to_average_too = average_from_scan(expressive, options.frame);
+    const auto neutral_marks =
+        geometry::transformed(options.snap_to_vertices ? neutral.snapped_landmarks : neutral.landmarks, to_average);
+    const auto expressive_marks =
+        geometry::transformed(options.snap_to_vertices ? expressive.snapped_landmarks : expressive.landmarks, to_average_too);
+    const NormalisedSurface neutral_surface(neutral.grid, to_average, geometry::BridgedVertices::keep);
+    const NormalisedSurface expressive_surface(expressive.grid, to_average_too, geometry::BridgedVertices::keep);
+
+    // Where the points stand on the model's own face, and where on this source's neutral face.
+    PlacedControls placed;
+    std::vector<Point> controls_on_source, anchors_on_source;
+    if (options.place_on_average) {
+        const geometry::SurfaceIndex average_surface(average.grid.vertices_mm, geometry::triangles(average.grid));
+        placed = place_controls(catalogue, expression, average.landmarks, average_surface);
+        model.landmarks = average.landmarks;
+        Correspondences pairs;
+        pairs.add(average.landmarks, neutral_marks);
+        const auto source_from_average = pairs.spline(options);
+        for (const auto& control : placed.controls)
+            controls_on_source.push_back(neutral_surface.nearest(source_from_average(control.position_mm), options.snap_to_vertices));
+        for (const auto& anchor : placed.anchors)
+            anchors_on_source.push_back(neutral_surface.nearest(source_from_average(anchor.position_mm), options.snap_to_vertices));
+    } else {
+        placed = place_controls(catalogue, expression, neutral_marks, neutral_surface.surface());
+        model.landmarks = neutral_marks;
+        for (auto& control : placed.controls) {
+            control.position_mm = neutral_surface.nearest(control.position_mm, options.snap_to_vertices);
+            controls_on_source.push_back(control.position_mm);
+        }
+        for (const auto& anchor : placed.anchors) anchors_on_source.push_back(anchor.position_mm);
+    }
+    model.mouth_width_mm = mouth_width(model.landmarks);
+    model.left_out = placed.left_out;
+
+    Correspondences pairs;
+    pairs.add(neutral_marks, expressive_marks);
+    if (options.anchors)
+        for (std::size_t k = 0; k < placed.anchors.size(); ++k)
+            pairs.add(placed.anchors[k].name, anchors_on_source[k], anchors_on_source[k]);
+    const auto expressive_from_neutral = pairs.spline(options);
+
+    for (std::size_t k = 0; k < placed.controls.size(); ++k) {
+        const auto& control = placed.controls[k];
+        if (!wanted(control.kind, options)) continue;
+        const Point carried = expressive_from_neutral(controls_on_source[k]);
+        const Point found = expressive_surface.nearest(carried, options.snap_to_vertices);
+        model.points.push_back({control.name, control.kind, control.position_mm, found - controls_on_source[k], (found - carried).norm()});
+    }
+    if (options.anchors)
+        for (const auto& anchor : placed.anchors)
+            model.points.push_back({anchor.name, ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
+    return model;
+}
+
+ExpressionModel mean_expression(std::span<const ExpressionModel> models) {
+    if (models.empty()) throw InputError("a mean expression needs at least one model");
+    ExpressionModel mean = models.front();
+    std::map<std::string, std::size_t> place;
+    for (std::size_t k = 0; k < mean.points.size(); ++k) place[mean.points[k].name] = k;
+    std::vector<double> count(mean.points.size(), 1.0);
+    for (const auto& model : models.subspan(1)) {
+        if (model.expression != mean.expression || model.frame != mean.frame)
+            throw InputError(fmt::format("{} and {} do not go together in a mean", mean.expression, model.expression));
+        for (const auto& mark : mean.landmarks.all())
+            if (const auto* other = model.landmarks.find(mark.name); !other || (other->position_mm - mark.position_mm).norm() > 1e-9)
+                throw InputError(fmt::format("{}: models of {} and {} stand on different faces; model them on the average face",
+                                             mean.expression, mean.sources.front(), model.sources.front()));
+        mean.sources.insert(mean.sources.end(), model.sources.begin(), model.sources.end());
+        for (const auto& point : model.points) {
+            const auto found = place.find(point.name);
+            if (found == place.end()) {
+                place[point.name] = mean.points.size();
+                mean.points.push_back(point);
+                count.push_back(1.0);
+                continue;
+            }
+            auto& sum = mean.points[found->second];
+            sum.displacement_mm += point.displacement_mm;
+            sum.projection_mm += point.projection_mm;
+            count[found->second] += 1.0;
+        }
+    }
+    for (std::size_t k = 0; k < mean.points.size(); ++k) {
+        mean.points[k].displacement_mm /= count[k];
+        mean.points[k].projection_mm /= count[k];
+    }
+    return mean;
+}
+
+void write_expression_model(const std::filesystem::path& file, const ExpressionModel& model) {
+    using preprocessing::to_json;
+    auto points = nlohmann::json::array();
+    for (const auto& point : model.points)
+        points.push_back({{"name", point.name},
+                          {"kind", to_string(point.kind)},
+                          {"position_mm", to_json(point.position_mm)},
+                          {"displacement_mm", to_json(point.displacement_mm)},
+                          {"projection_mm", point.projection_mm}});
+    const nlohmann::json document = {{"schema", 1},
+                                     {"kind", "mimik expression model"},
+                                     {"expression", model.expression},
+                                     {"moves_upper_face", model.moves_upper_face},
+                                     {"moves_lower_face", model.moves_lower_face},
+                                     {"frame", model.frame == Frame::affine ? "affine" : "similarity"},
+                                     {"units", "mm"},
+                                     {"sources", model.sources},
+                                     {"mouth_width_mm", model.mouth_width_mm},
+                                     {"landmarks", to_json(model.landmarks)},
+                                     {"points", points},
+                                     {"left_out", model.left_out}};
+    geometry::write_atomically(file, document.dump(1) + "\n");
+}
+
+ExpressionModel read_expression_model(const std::filesystem::path& file) {
+    return preprocessing::from_json_file<ExpressionModel>(file, [&](const nlohmann::json& document) {
+        ExpressionModel model;
+        model.expression = document.at("expression").get<std::string>();
+        model.moves_upper_face = document.at("moves_upper_face").get<bool>();
+        model.moves_lower_face = document.at("moves_lower_face").get<bool>();
+        const auto frame = document.at("frame").get<std::string>();
+        if (frame != "affine" && frame != "similarity")
+            throw InputError(fmt::format("{}: frame '{}' is neither affine nor similarity", file.string(), frame));
+        model.frame = frame == "affine" ? Frame::affine : Frame::similarity;
+        model.sources = document.at("sources").get<std::vector<std::string>>();
+        model.mouth_width_mm = document.at("mouth_width_mm").get<double>();
+        model.landmarks = preprocessing::landmarks_from_json(document.at("landmarks"));
+        for (const auto& point : document.at("points"))
+            model.points.push_back({point.at("name").get<std::string>(), parse_control_kind(point.at("kind").get<std::string>()),
+                                    preprocessing::vector_from_json(point.at("position_mm")),
+                                    preprocessing::vector_from_json(point.at("displacement_mm")),
+                                    point.at("projection_mm").get<double>()});
+        model.left_out = document.at("left_out").get<std::vector<std::string>>();
+        return model;
+    });
+}
+
+}  // namespace mimik::modeling

@@ -1,0 +1,34 @@
+#include "modeling/face_regions.h"
+
+#include <algorithm>
+
+namespace mimik::modeling {
+
+using geometry::Point;
+
+std::vector<double> region_weights(const geometry::QuadGrid& grid, const geometry::Landmarks& landmarks, bool lower_face,
+                                   double border_mm) {
+    const Point left = landmarks.position_mm("eye_outer_left"), right = landmarks.position_mm("eye_outer_right");
+    const Point inner = 0.5 * (landmarks.position_mm("eye_inner_left") + landmarks.position_mm("eye_inner_right"));
+    const Point eyes = 0.5 * (0.5 * (left + right) + inner);
+    const Point nose = landmarks.position_mm("nose_tip");
+    // "Up" on this face, whatever its pose: across the eye line, away from the chin.
+    const geometry::Vector across = (left - right).normalized();
+    geometry::Vector up = eyes - landmarks.position_mm("chin");
+    up = (up - across * across.dot(up)).normalized();
+    const double border = up.dot(eyes) + 0.25 * up.dot(nose - eyes);
+    std::vector<double> weights(grid.size(), 0.0);
+    for (std::size_t v = 0; v < grid.size(); ++v) {
+        if (!grid.inside(v)) continue;
+        const double above = (up.dot(grid.vertices_mm[v]) - border) * (lower_face ? -1.0 : 1.0);
+        if (border_mm <= 0) {
+            weights[v] = lower_face ? above > 0 : above >= 0;
+            continue;
+        }
+        const double t = std::clamp(0.5 + above / border_mm, 0.0, 1.0);
+        weights[v] = t * t * (3 - 2 * t);
+    }
+    return weights;
+}
+
+}  // namespace mimik::modeling

@@ -1,0 +1,341 @@
+#include "modeling/facs_catalogue.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#define TOML_EXCEPTIONS 1
+#include <toml++/toml.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/landmarks.h"
+
+namespace mimik::modeling {
+
+namespace {
+
+constexpr std::string_view embedded_catalogue =
+#include "modeling/facs_toml.inc"
+    ;
+
+std::string upper(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return text;
+}
+
+/// Collects findings while it reads; a value that is missing or wrong leaves its default.
+class Reader {
+public:
+    explicit Reader(std::vector<LintFinding>& findings) : findings_(findings) {}
+
+    void error(const toml::node& node, const std::string& what) { add(true, node, what); }
+    void warn(const toml::node& node, const std::string& what) { add(false, node, what); }
+
+    void only_keys(const toml::table& table, std::initializer_list<std::string_view> known) {
+        for (const auto& [key, node] : table)
+            if (std::find(known.begin(), known.end(), key.str()) == known.end())
+                error(node, fmt::format("unknown key '{}'; known here: {}", key.str(), fmt::join(known, ", ")));
+    }
+    std::string text(const toml::table& table, const char* key, bool required = true) {
+        const auto* node = table.get(key);
+        if (!node) {
+            if (required) error(table, fmt::format("'{}' is missing", key));
+            return {};
+        }
+        if (const auto value = node->value<std::string>()) return *value;
+        error(*node, fmt::format("'{}' is not a text", key));
+        return {};
+    }
+    double number(const toml::node& node, const std::string& what) {
+        if (const auto value = node.value<double>(); value && std::isfinite(*value)) return *value;
+        error(node, what + " is not a number");
+        return 0;
+    }
+    std::pair<double, double> two(const toml::table& table, const char* key, bool required) {
+        const auto* node = table.get(key);
+        if (!node) {
+            if (required) error(table, fmt::format("'{}' is missing", key));
+            return {0, 0};
+        }
+        const auto* list = node->as_array();
+        if (!list || list->size() != 2) {
+            error(*node, fmt::format("'{}' is not a list of two numbers [lateral, up]", key));
+            return {0, 0};
+        }
+        return {number(*list->get(0), key), number(*list->get(1), key)};
+    }
+    Placement placement(const toml::table& table) {
+        static const std::set<std::string, std::less<>> names = [] {
+            std::set<std::string, std::less<>> all;
+            for (const auto name : geometry::standard_landmark_names()) {
+                all.emplace(name);
+                for (const std::string_view side : {"_left", "_right"})
+                    if (name.ends_with(side)) all.emplace(name.substr(0, name.size() - side.size()));
+            }
+            return all;
+        }();
+        Placement place;
+        const auto* node = table.get("at");
+        const auto* at = node ? node->as_table() : nullptr;
+        if (!at || at->empty()) {
+            error(node ? *node : table, "'at' is missing: give landmarks and weights, e.g. at = { mouth_corner = 1.0 }");
+            return place;
+        }
+        double sum = 0;
+        for (const auto& [key, weight] : *at) {
+            if (!names.contains(key.str()))
+                error(weight, fmt::format("unknown landmark '{}'; known: {}", key.str(), fmt::join(names, ", ")));
+            place.at.emplace_back(std::string(key.str()), number(weight, std::string(key.str())));
+            sum += place.at.back().second;
+        }
+        if (std::abs(sum - 1.0) > 1e-6) error(*at, fmt::format("weights add up to {}, not 1", sum));
+        std::tie(place.lateral, place.up) = two(table, "offset", false);
+        if (std::hypot(place.lateral, place.up) > 1.5) error(table, "offset of more than 1.5 outer-eye distances is off the face");
+        return place;
+    }
+    template <typename Visit>
+    void tables(const toml::table& parent, const char* key, bool required, const Visit& visit) {
+        const auto* node = parent.get(key);
+        if (!node) {
+            if (required) error(parent, fmt::format("'{}' is missing", key));
+            return;
+        }
+        const auto* list = node->as_array();
+        if (!list) return error(*node, fmt::format("'{}' is not a list of tables", key));
+        for (const auto& item : *list) {
+            if (const auto* table = item.as_table())
+                visit(*table);
+            else
+                error(item, fmt::format("an entry of '{}' is not a table", key));
+        }
+    }
+
+private:
+    void add(bool is_error, const toml::node& node, const std::string& what) {
+        findings_.push_back({is_error, static_cast<unsigned>(node.source().begin.line), what});
+    }
+    std::vector<LintFinding>& findings_;
+};
+
+struct Parsed {
+    Sampling sampling;
+    std::vector<ActionUnit> units;
+    std::vector<Emotion> emotions;
+};
+
+ActionUnit read_unit(Reader& reader, const toml::table& table) {
+    reader.only_keys(table, {"number", "name", "region", "sides", "muscles", "wrinkles", "arkit", "zone", "points"});
+    ActionUnit unit;
+    if (const auto* node = table.get("number"))
+        unit.number = static_cast<int>(reader.number(*node, "number"));
+    else
+        reader.error(table, "'number' is missing");
+    if (unit.number < 1 || unit.number > 99) reader.error(table, fmt::format("AU number {} is not between 1 and 99", unit.number));
+    unit.name = reader.text(table, "name");
+    const auto region = reader.text(table, "region"), sides = reader.text(table, "sides");
+    if (region != "upper" && region != "lower") reader.error(table, fmt::format("region '{}' is neither upper nor lower", region));
+    if (sides != "paired" && sides != "central") reader.error(table, fmt::format("sides '{}' is neither paired nor central", sides));
+    unit.lower_face = region != "upper";
+    unit.central = sides == "central";
+    unit.wrinkles = reader.text(table, "wrinkles", false);
+    unit.arkit = reader.text(table, "arkit", false);
+    reader.tables(table, "muscles", true, [&](const toml::table& muscle) {
+        reader.only_keys(muscle, {"name", "source"});
+        unit.muscles.push_back({reader.text(muscle, "name"), reader.text(muscle, "source")});
+    });
+    reader.tables(table, "zone", true, [&](const toml::table& ellipse) {
+        reader.only_keys(ellipse, {"at", "offset", "radii"});
+        ZoneEllipse zone;
+        zone.centre = reader.placement(ellipse);
+        std::tie(zone.lateral_radius, zone.up_radius) = reader.two(ellipse, "radii", true);
+        if (zone.lateral_radius <= 0 || zone.up_radius <= 0) reader.error(ellipse, "radii must be above 0");
+        unit.zone.push_back(std::move(zone));
+    });
+    std::set<std::string> names;
+    bool muscle_point = false;
+    reader.tables(table, "points", true, [&](const toml::table& entry) {
+        reader.only_keys(entry, {"name", "kind", "at", "offset"});
+        CataloguePoint point;
+        point.name = reader.text(entry, "name");
+        const auto kind = reader.text(entry, "kind");
+        if (kind != "muscle" && kind != "wrinkle")
+            reader.error(entry, fmt::format("kind '{}' is neither muscle nor wrinkle", kind));
+        point.kind = kind == "wrinkle" ? ControlKind::wrinkle : ControlKind::muscle;
+        muscle_point = muscle_point || point.kind == ControlKind::muscle;
+        point.placement = reader.placement(entry);
+        if (!names.insert(point.name).second) reader.error(entry, fmt::format("point '{}' stands twice in AU{}", point.name, unit.number));
+        unit.points.push_back(std::move(point));
+    });
+    if (!muscle_point) reader.error(table, fmt::format("AU{} has no muscle point", unit.number));
+    if (unit.zone.empty()) reader.error(table, fmt::format("AU{} has no zone", unit.number));
+    return unit;
+}
+
+Parsed read(const std::string& text, std::vector<LintFinding>& findings) {
+    Parsed parsed;
+    toml::table document;
+    try {
+        document = toml::parse(text);
+    } catch (const toml::parse_error& e) {
+        findings.push_back({true, static_cast<unsigned>(e.source().begin.line), std::string(e.description())});
+        return parsed;
+    }
+    Reader reader(findings);
+    reader.only_keys(document, {"schema", "sampling", "au", "emotion"});
+    if (document["schema"].value_or(0) != 1) reader.error(document, "schema is not 1");
+    if (const auto* sampling = document["sampling"].as_table()) {
+        reader.only_keys(*sampling, {"coverage_spacing", "anchor_spacing", "anchor_margin", "min_separation"});
+        const auto take = [&](const char* key, double& value, double low, double high) {
+            if (const auto* node = sampling->get(key)) {
+                value = reader.number(*node, key);
+                if (!(value >= low && value <= high)) reader.error(*node, fmt::format("{} is {}, not between {} and {}", key, value, low, high));
+            }
+        };
+        take("coverage_spacing", parsed.sampling.coverage_spacing, 0.03, 1.0);
+        take("anchor_spacing", parsed.sampling.anchor_spacing, 0.03, 1.0);
+        take("anchor_margin", parsed.sampling.anchor_margin, 0.0, 1.0);
+        take("min_separation", parsed.sampling.min_separation, 0.005, 0.5);
+    }
+    std::set<int> numbers;
+    reader.tables(document, "au", true, [&](const toml::table& table) {
+        parsed.units.push_back(read_unit(reader, table));
+        if (!numbers.insert(parsed.units.back().number).second)
+            reader.error(table, fmt::format("AU{} stands twice", parsed.units.back().number));
+    });
+    reader.tables(document, "emotion", false, [&](const toml::table& table) {
+        reader.only_keys(table, {"name", "units"});
+        Emotion emotion{upper(reader.text(table, "name")), {}};
+        if (const auto* list = table["units"].as_array())
+            for (const auto& item : *list) {
+                const auto number = static_cast<int>(reader.number(item, "units"));
+                if (!numbers.contains(number)) reader.error(item, fmt::format("AU{} is not in this catalogue", number));
+                emotion.action_units.push_back(number);
+            }
+        if (emotion.action_units.empty()) reader.error(table, "'units' names no AU");
+        parsed.emotions.push_back(std::move(emotion));
+    });
+    std::stable_sort(findings.begin(), findings.end(), [](const LintFinding& a, const LintFinding& b) { return a.line < b.line; });
+    return parsed;
+}
+
+}  // namespace
+
+std::string_view to_string(ControlKind kind) {
+    switch (kind) {
+        case ControlKind::muscle: return "muscle";
+        case ControlKind::wrinkle: return "wrinkle";
+        case ControlKind::coverage: return "coverage";
+        case ControlKind::anchor: return "anchor";
+    }
+    return "muscle";
+}
+
+ControlKind parse_control_kind(const std::string& text) {
+    for (const auto kind : {ControlKind::muscle, ControlKind::wrinkle, ControlKind::coverage, ControlKind::anchor})
+        if (text == to_string(kind)) return kind;
+    throw InputError(fmt::format("kind '{}' is none of muscle, wrinkle, coverage, anchor", text));
+}
+
+FacsCatalogue::FacsCatalogue(Sampling sampling, std::vector<ActionUnit> units, std::vector<Emotion> emotions)
+    : sampling_(sampling), units_(std::move(units)), emotions_(std::move(emotions)) {}
+
+const ActionUnit* FacsCatalogue::find(int number) const {
+    const auto it = std::find_if(units_.begin(), units_.end(), [&](const ActionUnit& unit) { return unit.number == number; });
+    return it == units_.end() ? nullptr : &*it;
+}
+
+std::vector<SidedUnit> FacsCatalogue::resolve(const std::string& expression) const {
+    const std::string code = upper(expression);
+    for (const auto& emotion : emotions_)
+        if (emotion.name == code) {
+            std::vector<SidedUnit> units;
+            for (const int number : emotion.action_units) units.push_back({find(number), database::Side::both});
+            return units;
+        }
+    // One or more AUs: "12", "12L", "12LW", "A12A15", "A26A12LW".
+    std::vector<SidedUnit> units;
+    std::size_t at = 0;
+    while (at < code.size()) {
+        if (code[at] == 'A') ++at;
+        int number = 0;
+        const auto [end, fault] = std::from_chars(code.data() + at, code.data() + code.size(), number);
+        if (fault != std::errc{}) break;
+        at = static_cast<std::size_t>(end - code.data());
+        SidedUnit sided{find(number), database::Side::both};
+        if (code.compare(at, 2, "LW") == 0) {
+            at += 2;
+        } else if (at < code.size() && (code[at] == 'L' || code[at] == 'R')) {
+            sided.side = code[at] == 'L' ? database::Side::left : database::Side::right;
+            ++at;
+        }
+        if (!sided.unit) {
+            std::vector<int> numbers;
+            for (const auto& unit : units_) numbers.push_back(unit.number);
+            throw InputError(fmt::format("expression '{}': AU{} is not in the catalogue; there are: {}", expression, number,
+                                         fmt::join(numbers, ", ")));
+        }
+        if (sided.unit->central && sided.side != database::Side::both)
+            throw InputError(fmt::format("expression '{}': AU{} ({}) moves both sides at once; leave the side out", expression,
+                                         number, sided.unit->name));
+        units.push_back(sided);
+    }
+    if (units.empty() || at < code.size()) {
+        std::vector<std::string> emotions;
+        for (const auto& emotion : emotions_) emotions.push_back(emotion.name);
+        throw InputError(fmt::format("expression '{}' is neither an AU (12, 4L, A12A15) nor an emotion ({})", expression,
+                                     fmt::join(emotions, ", ")));
+    }
+    return units;
+}
+
+std::string_view builtin_catalogue_text() { return embedded_catalogue; }
+
+const FacsCatalogue& builtin_catalogue() {
+    static const FacsCatalogue catalogue = parse_catalogue(std::string(embedded_catalogue), "built-in catalogue");
+    return catalogue;
+}
+
+std::vector<LintFinding> lint_catalogue(const std::string& text) {
+    std::vector<LintFinding> findings;
+    (void)read(text, findings);
+    return findings;
+}
+
+FacsCatalogue parse_catalogue(const std::string& text, const std::string& name) {
+    std::vector<LintFinding> findings;
+    auto parsed = read(text, findings);
+    std::string errors;
+    int count = 0;
+    for (const auto& finding : findings)
+        if (finding.error && ++count <= 5) errors += fmt::format("{}{}:{}: {}", errors.empty() ? "" : "; ", name, finding.line, finding.what);
+    if (count > 5) errors += fmt::format("; and {} more ('mimik catalogue FILE --lint' lists all)", count - 5);
+    if (count > 0) throw InputError(errors);
+    return {parsed.sampling, std::move(parsed.units), std::move(parsed.emotions)};
+}
+
+FacsCatalogue read_catalogue(const std::filesystem::path& file) {
+    return parse_catalogue(geometry::read_text(file, 1 << 22), file.string());
+}
+
+Selection parse_selection(const std::string& text) {
+    Selection selection;
+    const auto colon = text.find(':');
+    selection.code = text.substr(0, colon);
+    if (colon != std::string::npos) {
+        const char* begin = text.data() + colon + 1;
+        const char* end = text.data() + text.size();
+        const auto [stop, fault] = std::from_chars(begin, end, selection.magnitude);
+        if (fault != std::errc{} || stop != end || !std::isfinite(selection.magnitude) || selection.magnitude < 0)
+            throw InputError(fmt::format("'{}': the magnitude after ':' is not a number of 0 or more, such as 12:0.5", text));
+    }
+    if (selection.code.empty()) throw InputError(fmt::format("'{}' names no AU or emotion; give for example 12 or 4L:0.5", text));
+    return selection;
+}
+
+}  // namespace mimik::modeling

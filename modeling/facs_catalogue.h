@@ -1,0 +1,117 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "database/scan_id.h"
+
+namespace mimik::modeling {
+
+enum class ControlKind {
+    muscle,    ///< where muscle fibres lie (thesis 5.5.1)
+    wrinkle,   ///< where skin folds or bulges (thesis 5.5.2)
+    coverage,  ///< fills the AU's zone evenly
+    anchor     ///< holds still
+};
+[[nodiscard]] std::string_view to_string(ControlKind kind);
+[[nodiscard]] ControlKind parse_control_kind(const std::string& text);  ///< throws InputError
+
+/// A place relative to landmarks, written for the subject's left side: sum of weight * landmark, plus an offset in
+/// outer-eye distances. A landmark name without a side ("mouth_corner") means that of the side asked for.
+struct Placement {
+    std::vector<std::pair<std::string, double>> at;
+    double lateral = 0.0;  ///< away from the midline
+    double up = 0.0;
+};
+
+struct CataloguePoint {
+    std::string name;
+    ControlKind kind = ControlKind::muscle;
+    Placement placement;
+};
+
+struct ZoneEllipse {
+    Placement centre;
+    double lateral_radius = 0.0, up_radius = 0.0;  ///< outer-eye distances
+};
+
+struct Muscle {
+    std::string name, source;
+};
+
+struct ActionUnit {
+    int number = 0;
+    std::string name;
+    bool lower_face = true;
+    bool central = false;  ///< moves both sides at once; cannot be one-sided
+    std::vector<Muscle> muscles;
+    std::string wrinkles;
+    std::string arkit;  ///< blendshape name without its side; empty: none
+    std::vector<ZoneEllipse> zone;
+    std::vector<CataloguePoint> points;
+};
+
+/// Lengths in outer-eye distances.
+struct Sampling {
+    double coverage_spacing = 0.100;
+    double anchor_spacing = 0.20;
+    double anchor_margin = 0.07;
+    double min_separation = 0.035;
+};
+
+struct Emotion {
+    std::string name;                ///< "HAPPY"
+    std::vector<int> action_units;   ///< of the prototype
+};
+
+/// One AU on one side or both: what an expression is made of.
+struct SidedUnit {
+    const ActionUnit* unit = nullptr;
+    database::Side side = database::Side::both;
+};
+
+class FacsCatalogue {
+public:
+    FacsCatalogue(Sampling sampling, std::vector<ActionUnit> units, std::vector<Emotion> emotions);
+
+    [[nodiscard]] const Sampling& sampling() const { return sampling_; }
+    [[nodiscard]] const std::vector<ActionUnit>& units() const { return units_; }
+    [[nodiscard]] const std::vector<Emotion>& emotions() const { return emotions_; }
+    [[nodiscard]] const ActionUnit* find(int number) const;
+    /// "12", "4L", "12LW" (low intensity), "A12A15", "HAPPY" -> AUs and sides. @throws InputError listing what there is.
+    [[nodiscard]] std::vector<SidedUnit> resolve(const std::string& expression) const;
+
+private:
+    Sampling sampling_;
+    std::vector<ActionUnit> units_;
+    std::vector<Emotion> emotions_;
+};
+
+/// The catalogue that Mimik ships (modeling/facs.toml, embedded).
+[[nodiscard]] const FacsCatalogue& builtin_catalogue();
+[[nodiscard]] std::string_view builtin_catalogue_text();
+
+/// What the linter found, one line each: "facs.toml:12: error: ...".
+struct LintFinding {
+    bool error = false;
+    unsigned line = 0;
+    std::string what;
+};
+/// Every fault of a catalogue: unknown keys and landmarks, weights that do not add up to 1, missing fields, AUs without a
+/// muscle point or zone, names used twice, points that fall together or off the reference face, lists out of range.
+[[nodiscard]] std::vector<LintFinding> lint_catalogue(const std::string& text);
+/// @throws InputError with the first errors, each with file and line.
+[[nodiscard]] FacsCatalogue read_catalogue(const std::filesystem::path& file);
+[[nodiscard]] FacsCatalogue parse_catalogue(const std::string& text, const std::string& name);
+
+/// "12", "12:0.5", "4L", "HAPPY:0.8".
+struct Selection {
+    std::string code;
+    double magnitude = 1.0;
+};
+[[nodiscard]] Selection parse_selection(const std::string& text);  ///< throws InputError
+
+}  // namespace mimik::modeling

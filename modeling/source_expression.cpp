@@ -1,0 +1,78 @@
+#include "modeling/source_expression.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "geometry/errors.h"
+#include "geometry/parallel.h"
+
+namespace mimik::modeling {
+
+using database::ScanId;
+using preprocessing::Workspace;
+
+namespace {
+
+std::optional<ScanId> scan_that_shows(const Workspace& workspace, const std::string& subject, const std::string& expression) {
+    if (auto id = workspace.expression(subject, expression)) return id;
+    if (!expression.empty() && (expression.back() == 'L' || expression.back() == 'R'))
+        return workspace.expression(subject, expression.substr(0, expression.size() - 1));
+    return std::nullopt;
+}
+
+}  // namespace
+
+ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatalogue& catalogue, const std::string& expression,
+                                     const ExpressionSource& source, const ModelOptions& options) {
+    const auto measure = [&](const std::string& subject, const ScanId& id) {
+        const auto neutral = workspace.face(workspace.neutral(subject));
+        return measure_expression(catalogue, expression, workspace.average(), neutral, workspace.face(id), options);
+    };
+    if (source.subject != "mean") {
+        (void)workspace.neutral(source.subject);  // names the subjects there are if this one is none of them
+        const auto id = scan_that_shows(workspace, source.subject, expression);
+        if (!id) {
+            std::vector<std::string> codes;
+            for (const auto& scan : workspace.scans())
+                if (scan.subject == source.subject && !scan.neutral()) codes.push_back(scan.code);
+            throw InputError(fmt::format("{}: subject '{}' has no scan of expression '{}'; there are: {}",
+                                         workspace.root().string(), source.subject, expression, fmt::join(codes, ", ")));
+        }
+        return measure(source.subject, *id);
+    }
+
+    std::vector<std::string> subjects;
+    std::vector<ScanId> ids;
+    for (const auto& subject : workspace.subjects()) {
+        if (std::find(source.excluded.begin(), source.excluded.end(), subject) != source.excluded.end()) continue;
+        if (const auto id = scan_that_shows(workspace, subject, expression)) {
+            subjects.push_back(subject);
+            ids.push_back(*id);
+        }
+    }
+    if (subjects.empty())
+        throw InputError(fmt::format("{}: no other subject shows expression '{}', so there is no mean", workspace.root().string(),
+                                     expression));
+    std::vector<std::optional<ExpressionModel>> measured(subjects.size());
+    std::vector<std::string> faults(subjects.size());
+    geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) try {
+                measured[k] = measure(subjects[k], ids[k]);
+            } catch (const std::exception& e) {
+                faults[k] = fmt::format("{}: {}", ids[k].name(), e.what());
+            }
+    });
+    std::vector<ExpressionModel> models;
+    for (auto& model : measured)
+        if (model) models.push_back(std::move(*model));
+    if (models.empty()) throw InputError(fmt::format("expression '{}': {}", expression, fmt::join(faults, "; ")));
+    auto mean = mean_expression(models);
+    for (const auto& fault : faults)
+        if (!fault.empty()) mean.left_out.push_back(fault);
+    return mean;
+}
+
+}  // namespace mimik::modeling
