@@ -1,13 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "animation/animate.h"
-#include "geometry/image.h"
 #include "geometry/mesh.h"
 
 namespace mimik::animation {
@@ -33,10 +31,11 @@ struct NamedMagnitude {
 
 /// Writes .ply, .obj, .vtp (the animated face; texture copied beside it as PNG) or .glb (the neutral face with one morph
 /// target per expression set to its magnitude, metres, texture embedded).
+/// @param texture_file  PNG of the scan; empty: none.
 /// @param names  one per expression, in the order of `animated.fields_mm`; used by GLB only.
 /// @throws InputError for another extension, or if the file cannot be written.
 void write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated, const TargetFace& target,
-                         std::span<const NamedMagnitude> names, const std::optional<geometry::Image>& texture,
+                         std::span<const NamedMagnitude> names, const std::filesystem::path& texture_file,
                          const ExportOptions& options = {});
 
 }  // namespace mimik::animation

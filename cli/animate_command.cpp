@@ -23,7 +23,7 @@ struct Arguments {
     MethodArguments method;
     std::string workspace, source = "mean", target, output, frame = "scanner", combine = "sum";
     std::vector<std::string> action_units;
-    bool keep_bridged = false;
+    bool keep_bridged = false, arkit_names = false;
 };
 
 int run(Arguments& arguments) {
@@ -50,7 +50,7 @@ int run(Arguments& arguments) {
     for (const auto& text : arguments.action_units) {
         const auto selection = modeling::parse_selection(text);
         models.push_back(modeling::model_from_workspace(workspace, catalogue, selection.code, source, model_options));
-        names.push_back({models.back().expression, selection.magnitude});
+        names.push_back({arguments.arkit_names ? modeling::arkit_name(catalogue, selection.code) : models.back().expression, selection.magnitude});
     }
     for (std::size_t k = 0; k < models.size(); ++k) expressions.push_back({&models[k], names[k].magnitude});
     const auto animated = animation::animate(target, expressions, animation_options);
@@ -60,13 +60,11 @@ int run(Arguments& arguments) {
         arguments.frame == "average" ? animation::OutputFrame::average : animation::OutputFrame::scanner;
     export_options.bridged =
         arguments.keep_bridged ? geometry::BridgedVertices::keep : geometry::BridgedVertices::leave_out;
-    std::optional<geometry::Image> texture;
+    std::filesystem::path texture = neutral.texture_file;
     std::vector<std::string> remarks = animated.remarks;
-    if (!neutral.texture_file.empty()) {
-        if (std::filesystem::exists(neutral.texture_file))
-            texture = geometry::read_png(neutral.texture_file);
-        else
-            remarks.push_back(fmt::format("texture {} is gone, so the mesh has none", neutral.texture_file.string()));
+    if (!texture.empty() && !std::filesystem::exists(texture)) {
+        remarks.push_back(fmt::format("texture {} is gone, so the mesh has none", texture.string()));
+        texture.clear();
     }
     animation::write_animated_face(arguments.output, animated, target, names, texture, export_options);
 
@@ -119,6 +117,7 @@ void add_animate_command(CLI::App& app, int& exit_code) {
         ->check(CLI::IsMember({"scanner", "average"}))
         ->capture_default_str();
     command->add_flag("--keep-bridged", arguments->keep_bridged, "Keep surface over holes (attribute origin = 2)");
+    command->add_flag("--arkit-names", arguments->arkit_names, "Name the morph targets of a GLB as ARKit does, where it has a name");
     command->add_option("-o,--output", arguments->output, ".ply, .obj, .vtp or .glb")->required();
     arguments->method.add_to(*command);
     add_common_options(*command, arguments->common);

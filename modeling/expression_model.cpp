@@ -94,21 +94,6 @@ struct Correspondences {
     }
 };
 
-std::string expression_name(const FacsCatalogue& catalogue, const std::string& expression, const std::vector<SidedUnit>& units) {
-    for (const auto& emotion : catalogue.emotions())
-        if (emotion.action_units.size() == units.size() && units.size() > 1) {
-            std::string code = expression;
-            std::transform(code.begin(), code.end(), code.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-            return code;
-        }
-    std::string name;
-    for (const auto& sided : units) {
-        name += fmt::format("{}AU{}", name.empty() ? "" : "+", sided.unit->number);
-        if (sided.side != database::Side::both) name += sided.side == database::Side::left ? "_L" : "_R";
-    }
-    return name;
-}
-
 double mouth_width(const Landmarks& landmarks) {
     return (landmarks.position_mm("mouth_corner_left") - landmarks.position_mm("mouth_corner_right")).norm();
 }
@@ -126,7 +111,7 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
     options.check();
     const auto units = catalogue.resolve(expression);
     ExpressionModel model;
-    model.expression = expression_name(catalogue, expression, units);
+    model.expression = expression_name(catalogue, expression);
     model.moves_upper_face = model.moves_lower_face = false;
     for (const auto& sided : units) (sided.unit->lower_face ? model.moves_lower_face : model.moves_upper_face) = true;
     model.frame = options.frame;

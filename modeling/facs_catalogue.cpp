@@ -294,6 +294,27 @@ std::vector<SidedUnit> FacsCatalogue::resolve(const std::string& expression) con
     return units;
 }
 
+std::string expression_name(const FacsCatalogue& catalogue, const std::string& expression) {
+    for (const auto& emotion : catalogue.emotions())
+        if (emotion.name == upper(expression)) return emotion.name;
+    std::string name;
+    for (const auto& sided : catalogue.resolve(expression)) {
+        name += fmt::format("{}AU{}", name.empty() ? "" : "+", sided.unit->number);
+        if (sided.side != database::Side::both) name += sided.side == database::Side::left ? "_L" : "_R";
+    }
+    return name;
+}
+
+std::string arkit_name(const FacsCatalogue& catalogue, const std::string& expression) {
+    const auto units = catalogue.resolve(expression);
+    if (units.size() == 1 && !units.front().unit->arkit.empty()) {
+        const auto& [unit, side] = units.front();
+        if (unit->central) return unit->arkit;
+        if (side != database::Side::both) return unit->arkit + (side == database::Side::left ? "Left" : "Right");
+    }
+    return expression_name(catalogue, expression);
+}
+
 std::string_view builtin_catalogue_text() { return embedded_catalogue; }
 
 const FacsCatalogue& builtin_catalogue() {

@@ -90,6 +90,12 @@ private:
     std::vector<Emotion> emotions_;
 };
 
+/// The ARKit blendshape of a code: "12L" -> "mouthSmileLeft", "17" -> "mouthShrugLower"; without one, or for both sides of a
+/// paired AU (ARKit has none for both), Mimik's own name: "AU12".
+[[nodiscard]] std::string arkit_name(const FacsCatalogue& catalogue, const std::string& expression);
+/// Mimik's own name of an expression: "12" -> "AU12", "4L" -> "AU4_L", "happy" -> "HAPPY", "A12A15" -> "AU12+AU15".
+[[nodiscard]] std::string expression_name(const FacsCatalogue& catalogue, const std::string& expression);
+
 /// The catalogue that Mimik ships (modeling/facs.toml, embedded).
 [[nodiscard]] const FacsCatalogue& builtin_catalogue();
 [[nodiscard]] std::string_view builtin_catalogue_text();

@@ -1,0 +1,107 @@
+#include "animation/face_export.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/glb.h"
+#include "geometry/mesh_io.h"
+
+namespace mimik::animation {
+
+using geometry::Mesh;
+using geometry::Vector;
+
+namespace {
+
+/// Grid vertices that a mesh keeps, in order.
+std::vector<std::uint32_t> kept_vertices(const geometry::QuadGrid& grid, geometry::BridgedVertices bridged) {
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t v = 0; v < grid.size(); ++v)
+        if (bridged == geometry::BridgedVertices::keep ? grid.inside(v) : grid.measured(v)) kept.push_back(v);
+    return kept;
+}
+
+/// The grid with the given displacement of its neutral vertices, in the frame asked for.
+Mesh mesh_of(const geometry::QuadGrid& neutral, const std::vector<Vector>& displacement_mm, const TargetFace& target,
+             const ExportOptions& options) {
+    const bool average = options.frame == OutputFrame::average;
+    const auto kept = kept_vertices(neutral, options.bridged);
+    std::vector<std::uint32_t> place(neutral.size(), std::numeric_limits<std::uint32_t>::max());
+    Mesh mesh;
+    geometry::VertexAttribute displacement{"displacement_mm", 3, {}}, origin{"origin", 1, {}};
+    for (const auto v : kept) {
+        place[v] = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+        const geometry::Point moved = neutral.vertices_mm[v] + displacement_mm[v];
+        mesh.vertices_mm.push_back(average ? geometry::Point(target.average_from_scan() * moved) : moved);
+        const Vector d = average ? Vector(target.average_from_scan().linear() * displacement_mm[v]) : displacement_mm[v];
+        displacement.values.insert(displacement.values.end(), d.begin(), d.end());
+        origin.values.push_back(static_cast<double>(neutral.origin[v]));
+        if (!neutral.texture_coordinates.empty()) mesh.texture_coordinates.push_back(neutral.texture_coordinates[v]);
+    }
+    const auto quads = geometry::quads(neutral, options.bridged);
+    for (std::size_t f = 0; f < quads.size(); ++f) {
+        std::vector<std::uint32_t> corners;
+        for (const auto v : quads[f]) corners.push_back(place[v]);
+        mesh.faces.add(corners);
+    }
+    mesh.attributes = {std::move(displacement), std::move(origin)};
+    return mesh;
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+}  // namespace
+
+Mesh to_mesh(const AnimatedFace& animated, const TargetFace& target, const ExportOptions& options) {
+    return mesh_of(target.face().grid, animated.displacement_mm, target, options);
+}
+
+void write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated, const TargetFace& target,
+                         std::span<const NamedMagnitude> names, const std::filesystem::path& texture_file,
+                         const ExportOptions& options) {
+    const auto extension = lower_extension(file);
+    if (extension == ".glb") {
+        const auto& grid = target.face().grid;
+        const std::vector<Vector> still(grid.size(), Vector::Zero());
+        const auto neutral = mesh_of(grid, still, target, options);
+        std::vector<std::uint32_t> source;
+        auto mesh = geometry::glb_mesh(neutral, &source);
+        mesh.name = target.face().id.subject;
+        if (!texture_file.empty()) mesh.texture_png = geometry::read_bytes(texture_file);
+        const auto kept = kept_vertices(grid, options.bridged);
+        const Eigen::Matrix3d turn = options.frame == OutputFrame::average ? Eigen::Matrix3d(target.average_from_scan().linear())
+                                                                           : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+        for (std::size_t k = 0; k < animated.fields_mm.size(); ++k) {
+            geometry::MorphTarget morph{names[k].name, {}, names[k].magnitude};
+            for (const auto v : source) morph.displacement_mm.push_back(turn * animated.fields_mm[k][kept[v]]);
+            mesh.morph_targets.push_back(std::move(morph));
+        }
+        geometry::GlbScene scene;
+        scene.meshes.push_back(std::move(mesh));
+        geometry::write_glb(file, scene);
+        return;
+    }
+    if (extension != ".ply" && extension != ".obj" && extension != ".vtp")
+        throw InputError(fmt::format("{}: an animated face is written as .ply, .obj, .vtp or .glb, not '{}'", file.string(), extension));
+    geometry::MeshWriteOptions write_options;
+    if (!texture_file.empty()) {
+        const auto bytes = geometry::read_bytes(texture_file);
+        auto copy = file;
+        copy.replace_extension(".png");
+        geometry::write_atomically(copy, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+        write_options.texture_file = copy.filename().string();
+    }
+    geometry::write_mesh(file, to_mesh(animated, target, options), write_options);
+}
+
+}  // namespace mimik::animation
