@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# setup.sh [--check|--bench]: installs the Debian 12 packages that Mimik is built and run with; does nothing where they are there.
-# --check adds what scripts/check.sh needs (clang tools, sanitizer run-times), --bench what scripts/bench.sh needs (peers). Needs root or sudo to install.
+# setup.sh [--check] [--bench]: installs the Debian 12 packages that Mimik is built and run with; does nothing where they
+# are there. --check adds what scripts/check.sh needs (clang tools), --bench what scripts/bench.sh compares with. Needs
+# root or sudo to install.
 set -euo pipefail
 
 packages=(
@@ -9,20 +10,20 @@ packages=(
   # geometry and numbers
   libeigen3-dev libtbb-dev libcgal-dev libgmp-dev libnanoflann-dev libembree-dev libhwy-dev
   # files, options, the catalogue of scans
-  libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libpng-dev zlib1g-dev libpugixml-dev liblzf-dev libtinygltf-dev libsqlite3-dev libxxhash-dev
+  libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libpng-dev zlib1g-dev
+  libpugixml-dev liblzf-dev libtinygltf-dev libsqlite3-dev libxxhash-dev
   # figures: VTK, an OpenGL that needs no display, and letters; xvfb is the second way where EGL is missing
   libvtk9-dev libgl-dev libegl-dev libx11-dev libegl1 libegl-mesa0 libgl1-mesa-dri xvfb fonts-dejavu-core
   # tests
   libgtest-dev libgmock-dev
 )
-if [ "${1:-}" = --check ]; then
-  packages+=(clang-14 clang-format-14 clang-tidy-14 clang-tools-14 libclang-rt-14-dev llvm-14)
-elif [ "${1:-}" = --bench ]; then
-  packages+=(libbenchmark-dev libpcl-dev python3-scipy libopenblas0-pthread)
-elif [ $# -gt 0 ]; then
-  echo "setup.sh: unknown option '$1'; there are --check and --bench" >&2
-  exit 2
-fi
+for option in "$@"; do
+  case "$option" in
+    --check) packages+=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev llvm-14) ;;
+    --bench) packages+=(libbenchmark-dev libpcl-dev python3-numpy python3-scipy) ;;
+    *) echo "setup.sh: there is no option '$option'; there are --check and --bench" >&2; exit 2 ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do
