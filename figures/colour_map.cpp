@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "geometry/errors.h"
+#include "geometry/text.h"
 
 namespace mimik::figures {
 namespace {
@@ -50,7 +51,8 @@ Colour colour_from_lightness_chroma_hue(double l, double chroma, double hue_deg)
 ColourMap parse_colour_map(const std::string& name) {
     if (name == "sequential") return ColourMap::sequential;
     if (name == "diverging") return ColourMap::diverging;
-    throw InputError(fmt::format("colour map '{}' is not known; give sequential or diverging", name));
+    throw InputError(
+        fmt::format("colour map {} is not known; give sequential or diverging", geometry::in_quotes(name)));
 }
 
 Colour map_colour(ColourMap map, double t) {
@@ -78,7 +80,7 @@ Colour parse_colour(const std::string& text) {
         const auto result = std::from_chars(first, first + 2, colour[k], 16);
         good = result.ec == std::errc() && result.ptr == first + 2;
     }
-    if (!good) throw InputError(fmt::format("colour '{}' is not of the form #rrggbb", text));
+    if (!good) throw InputError(fmt::format("colour {} is not of the form #rrggbb", geometry::in_quotes(text)));
     return colour;
 }
 

@@ -12,6 +12,7 @@
 #include "figures/offscreen.h"
 #include "figures/panel_scene.h"
 #include "geometry/errors.h"
+#include "geometry/text.h"
 
 namespace mimik::figures {
 namespace {
@@ -370,13 +371,13 @@ View parse_view(const std::string& name) {
         if (known == name) return view;
         names += (names.empty() ? "" : ", ") + known;
     }
-    throw InputError(fmt::format("view '{}' is not known; give one of {}", name, names));
+    throw InputError(fmt::format("view {} is not known; give one of {}", geometry::in_quotes(name), names));
 }
 
 Framing parse_framing(const std::string& name) {
     if (name == "own") return Framing::own;
     if (name == "common") return Framing::common;
-    throw InputError(fmt::format("framing '{}' is not known; give own or common", name));
+    throw InputError(fmt::format("framing {} is not known; give own or common", geometry::in_quotes(name)));
 }
 
 void Figure::check() const {

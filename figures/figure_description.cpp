@@ -22,6 +22,13 @@ using geometry::Point;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
+/// A value for an error message. Lists and objects are not written out: they may be nested without end.
+std::string shown(const Json& value) {
+    if (value.is_array()) return "a list";
+    if (value.is_object()) return "an object";
+    return value.dump().substr(0, 60);
+}
+
 /// One JSON object whose keys are all asked for; finish() refuses the others.
 class Keys {
 public:
@@ -38,7 +45,7 @@ public:
         try {
             target = convert(*found, place);
         } catch (const Json::exception&) {
-            throw InputError(fmt::format("{}: {} has the wrong type", place, found->dump().substr(0, 60)));
+            throw InputError(fmt::format("{}: {} has the wrong type", place, shown(*found)));
         }
         return true;
     }
@@ -72,7 +79,7 @@ private:
     static T plain(const Json& value, const std::string& place) {
         if constexpr (std::is_same_v<T, int>) {
             if (!value.is_number_integer())
-                throw InputError(fmt::format("{}: {} is not a whole number", place, value.dump()));
+                throw InputError(fmt::format("{}: {} is not a whole number", place, shown(value)));
             const auto number = value.get<std::int64_t>();
             if (std::abs(number) > 1'000'000'000)
                 throw InputError(fmt::format("{}: {} is out of range", place, number));
@@ -89,7 +96,7 @@ private:
 template <std::size_t n>
 std::array<double, n> numbers(const Json& value, const std::string& place) {
     if (!value.is_array() || value.size() != n)
-        throw InputError(fmt::format("{}: {} is not a list of {} numbers", place, value.dump().substr(0, 60), n));
+        throw InputError(fmt::format("{}: {} is not a list of {} numbers", place, shown(value), n));
     return value.get<std::array<double, n>>();
 }
 

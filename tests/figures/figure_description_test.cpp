@@ -91,6 +91,9 @@ TEST(FigureDescription, errors_name_the_file_the_key_and_the_value) {
                 AllOf(HasSubstr("'colums' is not known"), HasSubstr("columns")));
     EXPECT_THAT(error_in(R"({"schema": 1, "columns": "two", "panels": []})"),
                 AllOf(HasSubstr("fig.json: columns"), HasSubstr("\"two\"")));
+    const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+    EXPECT_THAT(error_in(R"({"schema": 1, "panels": [], "title": )" + deep + "}"),
+                HasSubstr("title: a list has the wrong"));
     EXPECT_THAT(error_in(R"({"schema": 1, "columns": 1.5, "panels": []})"), HasSubstr("1.5 is not a whole number"));
     EXPECT_THAT(error_in(R"({"schema": 1, "columns": 5000000000, "panels": []})"), HasSubstr("out of range"));
     EXPECT_THAT(error_in(R"({"schema": 1, "background": "white", "panels": []})"),
