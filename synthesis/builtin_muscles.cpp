@@ -1,0 +1,250 @@
+#include "synthesis/builtin_muscles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "synthesis/builtin_curves.h"
+
+namespace mimik::synthesis {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+
+/// How much of a pull follows the skin: the rest of its component along the normal stays as at the insertion.
+constexpr double slide_over_bone = 0.8;
+
+/// Distance from p to a line of places, and how far along it (0..1) the nearest point is.
+std::pair<double, double> to_line(const std::vector<Place>& line, double s, double t) {
+    double best = std::numeric_limits<double>::max(), along = 0, total = 0, at = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const double ds = line[i + 1].s - line[i].s, dt = line[i + 1].t - line[i].t, length = std::hypot(ds, dt);
+        const double f = std::clamp(((s - line[i].s) * ds + (t - line[i].t) * dt) / (length * length), 0.0, 1.0);
+        const double d = std::hypot(s - line[i].s - f * ds, t - line[i].t - f * dt);
+        if (d < best) best = d, at = total + f * length;
+        total += length;
+    }
+    along = at / total;
+    return {best, along};
+}
+
+}  // namespace
+
+MuscleModel::MuscleModel(const Sheet& sheet, std::vector<Point> mean_face_mm)
+    : sheet_(sheet), mean_(std::move(mean_face_mm)) {
+    std::vector<Point> base;
+    for (const auto& p : sheet.vertices) base.push_back(p.base);
+    normals_ = geometry::vertex_normals(base, geometry::triangulate(sheet.faces));
+    std::map<std::uint32_t, std::vector<std::uint32_t>> eye;
+    std::map<std::uint32_t, std::array<std::uint32_t, 2>> seam;
+    for (std::uint32_t i = 0; i < sheet.vertices.size(); ++i) {
+        const auto& p = sheet.vertices[i];
+        held_.push_back(smooth_step(place::rim - 2, 92, std::abs(p.s)) * smooth_step(place::top - 2, 62, p.t) *
+                        smooth_step(place::bottom + 3, -128, p.v));
+        if (p.s > 0 && std::abs(p.across_eye) < 1.45 && p.v < 12 && p.v > -26) eye[p.column].push_back(i);
+        if (p.v == place::stomion && std::abs(p.s) < place::mouth_corner)
+            seam[p.column][sheet.lower_lip_side[i] ? 1 : 0] = i;
+    }
+    for (auto& [column, vertices] : eye)
+        eye_columns_.push_back(vertices);  // vertices are numbered from the top row down
+    for (auto& [column, pair] : seam) seam_.push_back(pair);
+}
+
+double MuscleModel::lip_share(std::size_t vertex, Lip lip) const {
+    if (lip == Lip::both || sheet_.lower_lip_side[vertex] == (lip == Lip::lower)) return 1;
+    return smooth_step(9, place::mouth_corner, std::abs(sheet_.vertices[vertex].s));
+}
+
+void MuscleModel::pull(const Muscle& muscle, double side, std::span<const Point> neutral_mm,
+                       std::vector<Vector>& moved) const {
+    const Place in = {side * muscle.insertion.s, muscle.insertion.t}, from = {side * muscle.origin.s, muscle.origin.t};
+    const auto inserted = sheet_.nearest(in.s, in.t), origin = sheet_.nearest(from.s, from.t);
+    // The person's own muscle: longer ones pull further, and along their own line.
+    const Vector mean_line = mean_[origin] - mean_[inserted], own_line = neutral_mm[origin] - neutral_mm[inserted];
+    const double stretch = std::clamp(own_line.norm() / mean_line.norm(), 0.7, 1.4);
+    const Vector side_pull(side * muscle.pull_mm.x(), muscle.pull_mm.y(), muscle.pull_mm.z());
+    Vector pull_mm = stretch * (Eigen::Quaterniond::FromTwoVectors(mean_line, own_line) * side_pull);
+    if (in.s == 0) pull_mm.x() = 0;
+    const double normal_pull = pull_mm.dot(normals_[inserted]);
+
+    const double ds = from.s - in.s, dt = from.t - in.t, length = std::hypot(ds, dt);
+    const double reach = std::max({muscle.ahead_mm, muscle.behind_mm, muscle.side_mm});
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        const auto& p = sheet_.vertices[i];
+        const double u = p.s - in.s, v = p.t - in.t;
+        if (std::abs(u) > reach || std::abs(v) > reach) continue;
+        const double along = (u * ds + v * dt) / length, across = (u * dt - v * ds) / length;
+        const double r = std::hypot(along / (along > 0 ? muscle.ahead_mm : muscle.behind_mm), across / muscle.side_mm);
+        if (r >= 1) continue;
+        const double w = hump(r, 1) * lip_share(i, muscle.lip);
+        const double excess = pull_mm.dot(normals_[i]) - normal_pull;
+        moved[i] += w * (pull_mm - slide_over_bone * excess * normals_[i]);
+    }
+}
+
+void MuscleModel::heap(const Motion& motion, double side, std::vector<Vector>& moved) const {
+    for (const auto& f : motion.furrows) {
+        double low_s = 1e9, high_s = -1e9, low_t = 1e9, high_t = -1e9;
+        for (const auto& q : f.line) {
+            low_s = std::min(low_s, q.s), high_s = std::max(high_s, q.s);
+            low_t = std::min(low_t, q.t), high_t = std::max(high_t, q.t);
+        }
+        const double margin = 6 * f.width_mm;
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            const auto& p = sheet_.vertices[i];
+            const double s = side * p.s;
+            if (s < low_s - margin || s > high_s + margin || p.t < low_t - margin || p.t > high_t + margin) continue;
+            const auto [distance, along] = to_line(f.line, s, p.t);
+            const double taper = smooth_step(0, 0.3, along) * smooth_step(1, 0.7, along);
+            const double shape = -bell(distance, f.width_mm) + 0.45 * bell(distance - 2.4 * f.width_mm, f.width_mm);
+            moved[i] += f.depth_mm * taper * shape * lip_share(i, f.lip) * normals_[i];
+        }
+    }
+    for (const auto& b : motion.bulges)
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            const auto& p = sheet_.vertices[i];
+            const double r = std::hypot((side * p.s - b.centre.s) / b.reach_s_mm, (p.t - b.centre.t) / b.reach_t_mm);
+            if (r < 1) moved[i] += b.height_mm * hump(r, 1) * lip_share(i, b.lip) * normals_[i];
+        }
+}
+
+/// Lids glide over the eyeball: a vertex keeps its height over the surface that it comes to lie on.
+void MuscleModel::move_lids(const Sphincter& lids, std::span<const Point> neutral_mm,
+                            std::vector<Vector>& moved) const {
+    using namespace place;
+    for (const auto& column : eye_columns_) {
+        const double q = sheet_.vertices[column.front()].across_eye;
+        const double width = smooth_step(1.4, 0.75, std::abs(q));
+        double upper_y = 0, lower_y = 0, upper_gap = 0.5, lower_gap = 0.5;
+        for (const auto i : column) {
+            if (std::abs(sheet_.vertices[i].v - upper_lid) < upper_gap)
+                upper_gap = std::abs(sheet_.vertices[i].v - upper_lid), upper_y = neutral_mm[i].y();
+            if (std::abs(sheet_.vertices[i].v - lower_lid) < lower_gap)
+                lower_gap = std::abs(sheet_.vertices[i].v - lower_lid), lower_y = neutral_mm[i].y();
+        }
+        const double opening = (upper_y - lower_y) * (std::abs(q) < 1 ? 1 : smooth_step(1.45, 1, std::abs(q)) * 0.2);
+        const double up_mm =
+            lids.upper_lid_lift_mm * width * std::max(0.0, 1 - 0.5 * q * q) - lids.upper_lid_down * opening;
+        const double low_mm = lids.lower_lid_up * opening;
+        const double taper = std::sqrt(std::max(0.0, 1 - q * q));
+        const auto thickness = [&](double v) {  // of the lids over the eyeball, as the neutral surface has it
+            return (0.35 + 1.25 * taper) * smooth_step(upper_lid - 0.2, upper_lid + 0.9, v) * smooth_step(8, 3, v) +
+                   (0.35 + 0.95 * taper) * smooth_step(lower_lid + 0.2, lower_lid - 0.9, v) * smooth_step(-21, -15, v);
+        };
+        for (const auto i : column) {
+            const double v = sheet_.vertices[i].v;
+            const double share = v >= upper_lid   ? 1 - smooth_step(upper_lid + 0.8, 9.5, v)
+                                 : v <= lower_lid ? 0
+                                                  : (v - lower_lid) / (upper_lid - lower_lid);
+            const double low_share = v >= upper_lid   ? 0
+                                     : v <= lower_lid ? smooth_step(-24, lower_lid - 0.8, v)
+                                                      : 1 - share;
+            const double dy = up_mm * share + low_mm * low_share;
+            if (std::abs(dy) < 1e-6) continue;
+            // The surface below, read off the same column at the new height.
+            const double y = neutral_mm[i].y() + dy;
+            std::size_t k = 0;
+            while (k + 2 < column.size() && neutral_mm[column[k + 1]].y() > y) ++k;
+            const auto under = [&](std::size_t j) {
+                return neutral_mm[column[j]].z() - thickness(sheet_.vertices[column[j]].v);
+            };
+            const double a = neutral_mm[column[k]].y(), b = neutral_mm[column[k + 1]].y();
+            const double f = std::clamp((a - y) / std::max(1e-9, a - b), 0.0, 1.0);
+            const double z = under(k) + f * (under(k + 1) - under(k)) + thickness(v);
+            const double shared = std::min(1.0, std::max(share, low_share) * 1.0);
+            moved[i] += Vector(0, dy, shared * (z - neutral_mm[i].z()));
+        }
+    }
+}
+
+void MuscleModel::turn_lips(const Sphincter& lips, double side, std::span<const Point> neutral_mm,
+                            std::vector<Vector>& moved) const {
+    using namespace place;
+    std::map<std::uint32_t, double> line_y;
+    for (const auto& pair : seam_) line_y[sheet_.vertices[pair[0]].column] = neutral_mm[pair[0]].y();
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        const auto& p = sheet_.vertices[i];
+        const auto y = line_y.find(p.column);
+        if (y == line_y.end() || p.v > -58 || p.v < -98) continue;
+        const bool lower = sheet_.lower_lip_side[i];
+        const double roll = lower ? lips.lower_roll_mm : lips.upper_roll_mm;
+        if (roll == 0) continue;
+        const double a = std::abs(p.s) / mouth_corner;
+        double w = (1 - a * a) * (1 - a * a);
+        if (side != 0) w *= smooth_step(-6, 8, side * p.s);
+        const double border = lower ? lower_lip : upper_lip, beyond = lower ? -98 : -58;
+        const double red = std::clamp((p.v - border) / (stomion - border), 0.0, 1.0);  // 0 at the border, 1 at the line
+        const double skin = (p.v - beyond) / (border - beyond);
+        const double toward = red > 0 ? 1 - 0.75 * red * 0 : smooth_step(0, 1, skin);
+        const double dy =
+            (y->second - neutral_mm[i].y()) * lips.press * (red > 0 ? 1 : 0) +
+            (red > 0 ? 0 : 1) * toward * lips.press * (y->second - neutral_mm[i].y()) * smooth_step(0, 1, skin);
+        const double dz = -roll * (red > 0 ? 0.35 + 0.65 * smooth_step(0, 1, red) : 0.35 * smooth_step(0, 1, skin));
+        moved[i] += w * Vector(0, dy, dz);
+    }
+}
+
+void MuscleModel::open_jaw(double angle, std::span<const Point> neutral_mm, std::vector<Vector>& moved) const {
+    using namespace place;
+    // The joints lie just before the ears, under the skin.
+    const Point ear = neutral_mm[sheet_.nearest(98, -24)];
+    const Eigen::Vector2d axis(ear.y(), ear.z() - 8);
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        const auto& p = sheet_.vertices[i];
+        const double a = std::abs(p.s);
+        const double out = 1 - smooth_step(38, 92, a);
+        double w = 0;
+        if (p.v > stomion || (p.v == stomion && !sheet_.lower_lip_side[i] && a < mouth_corner))
+            w = 0.5 * smooth_step(7, mouth_corner, a) * smooth_step(-50, stomion, p.v) * out;
+        else {
+            const double at_line = (a < mouth_corner ? 1 - 0.5 * smooth_step(7, mouth_corner, a) : 0.5) * out;
+            const double low = 1 - smooth_step(62, 102, a);
+            w = at_line + (low - at_line) * smooth_step(stomion, -104, p.v);
+            w *= smooth_step(-148, gnathion + 2, p.v);
+        }
+        const double y = neutral_mm[i].y() - axis.x(), z = neutral_mm[i].z() - axis.y();
+        const Vector turned(0, c * y - s * z - y, s * y + c * z - z);
+        moved[i] += w * turned;
+    }
+}
+
+/// Lips that would pass through each other share the overlap.
+void MuscleModel::part_crossing_lips(std::span<const Point> neutral_mm, std::vector<Vector>& moved) const {
+    using namespace place;
+    std::map<std::uint32_t, double> overlap;
+    bool any = false;
+    for (const auto& [up, low] : seam_) {
+        const double o = std::max(0.0, (neutral_mm[low] + moved[low]).y() - (neutral_mm[up] + moved[up]).y());
+        overlap[sheet_.vertices[up].column] = o;
+        any = any || o > 0;
+    }
+    if (!any) return;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        const auto& p = sheet_.vertices[i];
+        const auto o = overlap.find(p.column);
+        if (o == overlap.end()) continue;
+        if (sheet_.lower_lip_side[i])
+            moved[i].y() -= 0.35 * o->second * smooth_step(-93, stomion, p.v);
+        else
+            moved[i] += Vector(0, 0.65, 0.25) * o->second * smooth_step(-56, stomion, p.v);
+    }
+}
+
+std::vector<Vector> MuscleModel::displacement_mm(const Motion& motion, std::span<const Point> neutral_mm) const {
+    std::vector<Vector> moved(neutral_mm.size(), Vector::Zero());
+    for (const auto& muscle : motion.muscles) pull(muscle, 1, neutral_mm, moved);
+    heap(motion, 1, moved);
+    const auto& own = motion.sphincter;
+    if (own.upper_lid_down != 0 || own.lower_lid_up != 0 || own.upper_lid_lift_mm != 0)
+        move_lids(own, neutral_mm, moved);
+    if (own.upper_roll_mm != 0 || own.lower_roll_mm != 0) turn_lips(own, motion.central ? 0 : 1, neutral_mm, moved);
+    if (own.jaw_rad != 0) open_jaw(own.jaw_rad, neutral_mm, moved);
+    part_crossing_lips(neutral_mm, moved);
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] *= held_[i];
+    return moved;
+}
+
+}  // namespace mimik::synthesis
