@@ -24,7 +24,8 @@ int run_synthesize(SynthesizeArguments arguments) {
     auto& options = arguments.options;
     options.facs_codes = !arguments.no_facs_codes;
     options.check();
-    const auto model = synthesis::load_ict_face_model(arguments.face_model);
+    const auto model = arguments.face_model.empty() ? synthesis::make_builtin_face_model()
+                                                    : synthesis::load_ict_face_model(arguments.face_model);
     const auto estimate = synthesis::estimate_database(*model, options);
     if (arguments.dry_run) {
         const double seconds = estimate.core_seconds / geometry::thread_count();
@@ -119,8 +120,8 @@ void add_synthesize_command(CLI::App& app, int& exit_code) {
     auto* command = app.add_subcommand("synthesize", "Make a database of synthetic scans with a known truth");
     auto& options = arguments->options;
     command->add_option("OUT", arguments->out, "New folder for the database")->required();
-    command->add_option("--face-model", arguments->face_model, "Folder of ICT-FaceKit (its FaceXModel or the parent)")
-        ->required();
+    command->add_option("--face-model", arguments->face_model,
+                        "Folder of ICT-FaceKit (its FaceXModel or the parent); without it the built-in model");
     command->add_option("--subjects", options.subjects, "How many people")->capture_default_str();
     command
         ->add_option("--expressions", options.expressions,
