@@ -32,8 +32,10 @@ void AnimationOptions::check() const {
 
 TargetFace::TargetFace(const preprocessing::Face& neutral, modeling::Frame frame, bool snapped_landmarks)
     : face_(&neutral), frame_(frame), average_from_scan_(modeling::average_from_scan(neutral, frame)) {
-    landmarks_ = geometry::transformed(snapped_landmarks ? neutral.snapped_landmarks : neutral.landmarks, average_from_scan_);
-    mouth_width_mm_ = (landmarks_.position_mm("mouth_corner_left") - landmarks_.position_mm("mouth_corner_right")).norm();
+    landmarks_ =
+        geometry::transformed(snapped_landmarks ? neutral.snapped_landmarks : neutral.landmarks, average_from_scan_);
+    mouth_width_mm_ =
+        (landmarks_.position_mm("mouth_corner_left") - landmarks_.position_mm("mouth_corner_right")).norm();
     vertices_mm_.reserve(neutral.grid.size());
     for (std::size_t v = 0; v < neutral.grid.size(); ++v) {
         vertices_mm_.emplace_back(average_from_scan_ * neutral.grid.vertices_mm[v]);
@@ -90,14 +92,15 @@ Controls carry(const TargetFace& target, const ExpressionModel& model, const Ani
         const bool anchor = point.kind == modeling::ControlKind::anchor;
         if (anchor && !options.anchors) continue;
         const Point carried = target_from_model(point.position_mm);
-        const Point on_face = options.snap_to_vertices ? target.nearest_vertex(carried)
-                                                       : target.surface().closest(carried).position_mm;
+        const Point on_face =
+            options.snap_to_vertices ? target.nearest_vertex(carried) : target.surface().closest(carried).position_mm;
         const Vector displacement = ratio * point.displacement_mm;
         const auto near = std::find_if(controls.from.begin(), controls.from.end(),
                                        [&](const Point& p) { return (p - on_face).norm() < merge_mm; });
         if (near != controls.from.end()) {
             if (remarks)
-                remarks->push_back(fmt::format("{}: '{}' falls on '{}' on this face and was left out", model.expression, point.name,
+                remarks->push_back(fmt::format("{}: '{}' falls on '{}' on this face and was left out", model.expression,
+                                               point.name,
                                                controls.names[static_cast<std::size_t>(near - controls.from.begin())]));
             continue;
         }
@@ -118,17 +121,19 @@ std::vector<Vector> expression_field(const TargetFace& target, const ExpressionM
                                      std::vector<std::string>* remarks) {
     options.check();
     if (model.frame != target.frame())
-        throw InputError(fmt::format("{}: the model is in the {} frame and the target in the other; model and animate with "
-                                     "the same normalisation",
-                                     model.expression, model.frame == modeling::Frame::affine ? "affine" : "similarity"));
+        throw InputError(
+            fmt::format("{}: the model is in the {} frame and the target in the other; model and animate with "
+                        "the same normalisation",
+                        model.expression, model.frame == modeling::Frame::affine ? "affine" : "similarity"));
     const Controls controls = carry(target, model, options, points, remarks);
-    const auto warp = geometry::ThinPlateSpline::fit(controls.from, controls.to,
-                                                     {.kernel = options.kernel, .smoothing = options.smoothing}, controls.names);
+    const auto warp = geometry::ThinPlateSpline::fit(
+        controls.from, controls.to, {.kernel = options.kernel, .smoothing = options.smoothing}, controls.names);
 
     // An emotion moves both halves; an AU of one half leaves the other alone.
     std::vector<double> weights(target.vertices_mm().size(), 1.0);
     if (model.moves_upper_face != model.moves_lower_face)
-        weights = modeling::region_weights(target.face().grid, target.face().landmarks, model.moves_lower_face, options.border_mm);
+        weights = modeling::region_weights(target.face().grid, target.face().landmarks, model.moves_lower_face,
+                                           options.border_mm);
     std::vector<std::uint32_t> moving;
     std::vector<Point> positions;
     for (std::uint32_t v = 0; v < target.vertices_mm().size(); ++v)
@@ -151,7 +156,8 @@ AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpressio
     const Eigen::Matrix3d scan_from_average = target.average_from_scan().linear().inverse();
     for (const auto& [model, magnitude] : expressions) {
         if (!std::isfinite(magnitude) || magnitude < 0)
-            throw InputError(fmt::format("magnitude of {} is {}; give 0 (neutral) or more", model->expression, magnitude));
+            throw InputError(
+                fmt::format("magnitude of {} is {}; give 0 (neutral) or more", model->expression, magnitude));
         if (magnitude > 1)
             result.remarks.push_back(fmt::format("magnitude of {} is {}: beyond what the source did, so it exaggerates",
                                                  model->expression, magnitude));
@@ -178,7 +184,8 @@ AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpressio
                 const auto a = result.grid.index(row, col), b = result.grid.index(r, c);
                 if (result.grid.inside(a) && result.grid.inside(b))
                     result.largest_neighbour_step_mm =
-                        std::max(result.largest_neighbour_step_mm, (result.displacement_mm[a] - result.displacement_mm[b]).norm());
+                        std::max(result.largest_neighbour_step_mm,
+                                 (result.displacement_mm[a] - result.displacement_mm[b]).norm());
             }
     return result;
 }

@@ -23,11 +23,11 @@ enum class Combination {
 
 struct AnimationOptions {
     geometry::SplineKernel kernel = geometry::SplineKernel::r;
-    double smoothing = 0.0;           ///< of the warp, unit of the kernel
-    bool anchors = true;              ///< the model's anchors hold still in the warp
-    bool mouth_ratio = true;          ///< Eq. 5.8: lower-face AUs scale with the mouth width
-    bool snap_to_vertices = false;    ///< carried points go to the nearest vertex (thesis), not the nearest surface point
-    double border_mm = 12.0;          ///< width over which an AU fades at the border of its region; 0: hard cut (thesis)
+    double smoothing = 0.0;         ///< of the warp, unit of the kernel
+    bool anchors = true;            ///< the model's anchors hold still in the warp
+    bool mouth_ratio = true;        ///< Eq. 5.8: lower-face AUs scale with the mouth width
+    bool snap_to_vertices = false;  ///< carried points go to the nearest vertex (thesis), not the nearest surface point
+    double border_mm = 12.0;        ///< width over which an AU fades at the border of its region; 0: hard cut (thesis)
     Combination combination = Combination::sum;
 
     /// The thesis as printed: r^2 ln r^2, no anchors, hard cut between upper and lower face.
@@ -70,27 +70,27 @@ struct WeightedExpression {
 struct CarriedPoint {
     std::string name;
     modeling::ControlKind kind = modeling::ControlKind::muscle;
-    geometry::Point position_mm;      ///< on the target's neutral face, scanner frame
-    geometry::Vector displacement_mm; ///< at magnitude 1, scanner frame
-    double projection_mm = 0.0;       ///< how far the spline's answer lay from the target's surface, average frame
+    geometry::Point position_mm;       ///< on the target's neutral face, scanner frame
+    geometry::Vector displacement_mm;  ///< at magnitude 1, scanner frame
+    double projection_mm = 0.0;        ///< how far the spline's answer lay from the target's surface, average frame
 };
 
 struct AnimatedFace {
-    geometry::QuadGrid grid;                       ///< scanner frame of the target's neutral scan; origins as there
-    std::vector<geometry::Vector> displacement_mm; ///< per vertex, scanner frame
+    geometry::QuadGrid grid;                        ///< scanner frame of the target's neutral scan; origins as there
+    std::vector<geometry::Vector> displacement_mm;  ///< per vertex, scanner frame
     std::vector<std::vector<geometry::Vector>> fields_mm;  ///< of each expression alone at magnitude 1, scanner frame
     std::vector<CarriedPoint> points;
-    std::vector<std::string> remarks;              ///< merged points, magnitudes above 1, ...
+    std::vector<std::string> remarks;  ///< merged points, magnitudes above 1, ...
     double largest_displacement_mm = 0.0;
     double largest_neighbour_step_mm = 0.0;  ///< largest change of displacement between neighbouring vertices
 };
 
-/// The displacement of every vertex under one model at magnitude 1, average frame. The field at another magnitude m is m
-/// times this one: the spline is linear in the displacements of its controls.
-/// Carries the controls by the landmark spline (Eq. 5.7) and on to the surface, moves them by Eqs 5.8 / 5.10 and warps by
-/// the spline of Eq. 5.9.
+/// The displacement of every vertex under one model at magnitude 1, average frame. The field at another magnitude m is
+/// m times this one: the spline is linear in the displacements of its controls. Carries the controls by the landmark
+/// spline (Eq. 5.7) and on to the surface, moves them by Eqs 5.8 / 5.10 and warps by the spline of Eq. 5.9.
 /// @throws InputError if model and target are in different frames; NumericalError from the splines.
-[[nodiscard]] std::vector<geometry::Vector> expression_field(const TargetFace& target, const modeling::ExpressionModel& model,
+[[nodiscard]] std::vector<geometry::Vector> expression_field(const TargetFace& target,
+                                                             const modeling::ExpressionModel& model,
                                                              const AnimationOptions& options,
                                                              std::vector<CarriedPoint>* points = nullptr,
                                                              std::vector<std::string>* remarks = nullptr);

@@ -38,7 +38,8 @@ Mesh mesh_of(const geometry::QuadGrid& neutral, const std::vector<Vector>& displ
         place[v] = static_cast<std::uint32_t>(mesh.vertices_mm.size());
         const geometry::Point moved = neutral.vertices_mm[v] + displacement_mm[v];
         mesh.vertices_mm.push_back(average ? geometry::Point(target.average_from_scan() * moved) : moved);
-        const Vector d = average ? Vector(target.average_from_scan().linear() * displacement_mm[v]) : displacement_mm[v];
+        const Vector d =
+            average ? Vector(target.average_from_scan().linear() * displacement_mm[v]) : displacement_mm[v];
         displacement.values.insert(displacement.values.end(), d.begin(), d.end());
         origin.values.push_back(static_cast<double>(neutral.origin[v]));
         if (!neutral.texture_coordinates.empty()) mesh.texture_coordinates.push_back(neutral.texture_coordinates[v]);
@@ -79,8 +80,9 @@ void write_animated_face(const std::filesystem::path& file, const AnimatedFace& 
         mesh.name = target.face().id.subject;
         if (!texture_file.empty()) mesh.texture_png = geometry::read_bytes(texture_file);
         const auto kept = kept_vertices(grid, options.bridged);
-        const Eigen::Matrix3d turn = options.frame == OutputFrame::average ? Eigen::Matrix3d(target.average_from_scan().linear())
-                                                                           : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+        const Eigen::Matrix3d turn = options.frame == OutputFrame::average
+                                         ? Eigen::Matrix3d(target.average_from_scan().linear())
+                                         : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
         for (std::size_t k = 0; k < animated.fields_mm.size(); ++k) {
             geometry::MorphTarget morph{names[k].name, {}, names[k].magnitude};
             for (const auto v : source) morph.displacement_mm.push_back(turn * animated.fields_mm[k][kept[v]]);
@@ -92,7 +94,8 @@ void write_animated_face(const std::filesystem::path& file, const AnimatedFace& 
         return;
     }
     if (extension != ".ply" && extension != ".obj" && extension != ".vtp")
-        throw InputError(fmt::format("{}: an animated face is written as .ply, .obj, .vtp or .glb, not '{}'", file.string(), extension));
+        throw InputError(fmt::format("{}: an animated face is written as .ply, .obj, .vtp or .glb, not '{}'",
+                                     file.string(), extension));
     geometry::MeshWriteOptions write_options;
     if (!texture_file.empty()) {
         const auto bytes = geometry::read_bytes(texture_file);

@@ -18,8 +18,8 @@ struct ExportOptions {
 };
 
 /// The animated face as a mesh: quads of the grid, texture coordinates, attributes `displacement_mm` (3 per vertex, in
-/// the frame of the mesh) and `origin` (1 measured, 2 bridged). Vertices outside the face (and bridged ones, if they are
-/// left out) are dropped, the order of the rest is kept.
+/// the frame of the mesh) and `origin` (1 measured, 2 bridged). Vertices outside the face (and bridged ones, if they
+/// are left out) are dropped, the order of the rest is kept.
 [[nodiscard]] geometry::Mesh to_mesh(const AnimatedFace& animated, const TargetFace& target,
                                      const ExportOptions& options = {});
 
@@ -29,8 +29,8 @@ struct NamedMagnitude {
     double magnitude = 1.0;
 };
 
-/// Writes .ply, .obj, .vtp (the animated face; texture copied beside it as PNG) or .glb (the neutral face with one morph
-/// target per expression set to its magnitude, metres, texture embedded).
+/// Writes .ply, .obj, .vtp (the animated face; texture copied beside it as PNG) or .glb (the neutral face with one
+/// morph target per expression set to its magnitude, metres, texture embedded).
 /// @param texture_file  PNG of the scan; empty: none.
 /// @param names  one per expression, in the order of `animated.fields_mm`; used by GLB only.
 /// @throws InputError for another extension, or if the file cannot be written.

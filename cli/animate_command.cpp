@@ -31,7 +31,8 @@ int run(Arguments& arguments) {
     const auto catalogue = arguments.method.catalogue();
     for (const auto& subject : {arguments.source, arguments.target})
         if (workspace.hidden(subject))
-            throw InputError(fmt::format("subject '{}' stands in unallowed_subjects.txt and must not be shown; choose another", subject));
+            throw InputError(fmt::format(
+                "subject '{}' stands in unallowed_subjects.txt and must not be shown; choose another", subject));
 
     const auto model_options = arguments.method.model_options();
     auto animation_options = arguments.method.animation_options();
@@ -50,7 +51,9 @@ int run(Arguments& arguments) {
     for (const auto& text : arguments.action_units) {
         const auto selection = modeling::parse_selection(text);
         models.push_back(modeling::model_from_workspace(workspace, catalogue, selection.code, source, model_options));
-        names.push_back({arguments.arkit_names ? modeling::arkit_name(catalogue, selection.code) : models.back().expression, selection.magnitude});
+        names.push_back(
+            {arguments.arkit_names ? modeling::arkit_name(catalogue, selection.code) : models.back().expression,
+             selection.magnitude});
     }
     for (std::size_t k = 0; k < models.size(); ++k) expressions.push_back({&models[k], names[k].magnitude});
     const auto animated = animation::animate(target, expressions, animation_options);
@@ -73,7 +76,9 @@ int run(Arguments& arguments) {
     if (arguments.common.json) {
         auto list = nlohmann::json::array();
         for (std::size_t k = 0; k < models.size(); ++k)
-            list.push_back({{"expression", names[k].name}, {"magnitude", names[k].magnitude}, {"sources", models[k].sources},
+            list.push_back({{"expression", names[k].name},
+                            {"magnitude", names[k].magnitude},
+                            {"sources", models[k].sources},
                             {"points", models[k].points.size()},
                             {"largest_displacement_mm", models[k].largest_displacement_mm()}});
         std::cout << nlohmann::json{{"schema", 1},
@@ -102,13 +107,18 @@ int run(Arguments& arguments) {
 }  // namespace
 
 void add_animate_command(CLI::App& app, int& exit_code) {
-    auto* command = app.add_subcommand("animate", "Put expressions of one subject, or of the mean of all, on a neutral face");
+    auto* command =
+        app.add_subcommand("animate", "Put expressions of one subject, or of the mean of all, on a neutral face");
     auto arguments = std::make_shared<Arguments>();
     command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
-    command->add_option("--source", arguments->source, "Subject whose expression is taken, or mean (of all but the target)")
+    command
+        ->add_option("--source", arguments->source,
+                     "Subject whose expression is taken, or mean (of all but the target)")
         ->capture_default_str();
     command->add_option("--target", arguments->target, "Subject whose first neutral face is animated")->required();
-    command->add_option("--au", arguments->action_units, "AU or emotion, side and magnitude: 12, 12:0.5, 4L, HAPPY:0.8; repeat")
+    command
+        ->add_option("--au", arguments->action_units,
+                     "AU or emotion, side and magnitude: 12, 12:0.5, 4L, HAPPY:0.8; repeat")
         ->required();
     command->add_option("--combine", arguments->combine, "Several AUs: sum, or parallel (equal pulls do not double)")
         ->check(CLI::IsMember({"sum", "parallel"}))
@@ -117,7 +127,8 @@ void add_animate_command(CLI::App& app, int& exit_code) {
         ->check(CLI::IsMember({"scanner", "average"}))
         ->capture_default_str();
     command->add_flag("--keep-bridged", arguments->keep_bridged, "Keep surface over holes (attribute origin = 2)");
-    command->add_flag("--arkit-names", arguments->arkit_names, "Name the morph targets of a GLB as ARKit does, where it has a name");
+    command->add_flag("--arkit-names", arguments->arkit_names,
+                      "Name the morph targets of a GLB as ARKit does, where it has a name");
     command->add_option("-o,--output", arguments->output, ".ply, .obj, .vtp or .glb")->required();
     arguments->method.add_to(*command);
     add_common_options(*command, arguments->common);

@@ -1,13 +1,12 @@
 #include "cli/command.h"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <exception>
 #include <iostream>
 #include <mutex>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "geometry/errors.h"
 #include "geometry/parallel.h"
@@ -43,7 +42,10 @@ int run(CLI::App& app, int argc, char** argv, const int& exit_code) {
 }
 
 Progress::Progress(const Common& common, std::string what, std::size_t total)
-    : what_(std::move(what)), total_(total), shown_(!common.quiet && !common.json), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : what_(std::move(what)),
+      total_(total),
+      shown_(!common.quiet && !common.json),
+      terminal_(isatty(STDERR_FILENO) != 0) {}
 
 void Progress::advance(const std::string& label) {
     const std::scoped_lock lock(progress_mutex);

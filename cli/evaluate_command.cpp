@@ -35,7 +35,8 @@ int run(Arguments& arguments) {
         const auto subjects = workspace.subjects().size();
         const double sources = options.max_sources > 0 ? options.max_sources : static_cast<double>(subjects) - 1;
         const double cases = static_cast<double>(steps) * sources * static_cast<double>(options.methods.size());
-        std::cout << fmt::format("about {:.0f} transfers, {:.0f} s on one core, less than 1 MB of tables\n", cases, 0.03 * cases);
+        std::cout << fmt::format("about {:.0f} transfers, {:.0f} s on one core, less than 1 MB of tables\n", cases,
+                                 0.03 * cases);
         return exit_done;
     }
     evaluation::ExperimentReport report;
@@ -59,18 +60,23 @@ int run(Arguments& arguments) {
 }  // namespace
 
 void add_evaluate_command(CLI::App& app, int& exit_code) {
-    auto* command = app.add_subcommand("evaluate", "Score methods on every ordered pair of subjects beside doing nothing");
+    auto* command =
+        app.add_subcommand("evaluate", "Score methods on every ordered pair of subjects beside doing nothing");
     auto arguments = std::make_shared<Arguments>();
     auto& options = arguments->options;
     command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command->add_option("--method", arguments->methods, "thesis, default (one source), mean (of all other subjects)")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("--expression", options.expressions, "AUs and emotions to score")->delimiter(',')->capture_default_str();
-    command->add_option("--max-sources", options.max_sources, "Sources per target; 0 = all other subjects")->capture_default_str();
+    command->add_option("--expression", options.expressions, "AUs and emotions to score")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--max-sources", options.max_sources, "Sources per target; 0 = all other subjects")
+        ->capture_default_str();
     command->add_option("--catalogue", arguments->catalogue_file, "Another FACS catalogue (TOML) than the built-in one")
         ->check(CLI::ExistingFile);
-    command->add_flag("--no-reference", arguments->no_reference, "Leave out the true-field reference of synthetic databases");
+    command->add_flag("--no-reference", arguments->no_reference,
+                      "Leave out the true-field reference of synthetic databases");
     command->add_flag("--no-whole-face", arguments->no_whole_face, "Score the active zone only (faster)");
     command->add_option("-o,--output", arguments->output, "Folder for scores.md, scores.csv and scores.json");
     command->add_flag("--dry-run", arguments->dry_run, "Say time and disk, do nothing");

@@ -8,7 +8,8 @@ void MethodArguments::add_to(CLI::App& command) {
         ->capture_default_str();
     command.add_option("--catalogue", catalogue_file, "Another FACS catalogue (TOML) than the built-in one")
         ->check(CLI::ExistingFile);
-    command.add_option("--kernel", kernel, "Spline kernel, if not the method's own")->check(CLI::IsMember({"r", "r2logr"}));
+    command.add_option("--kernel", kernel, "Spline kernel, if not the method's own")
+        ->check(CLI::IsMember({"r", "r2logr"}));
     command.add_flag("--no-anchors", no_anchors, "Let the splines move what the AU leaves alone");
 }
 

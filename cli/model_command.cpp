@@ -24,8 +24,8 @@ struct Arguments {
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
     const auto catalogue = arguments.method.catalogue();
-    const std::filesystem::path folder =
-        arguments.output.empty() ? workspace.root() / "models" / arguments.method.name : std::filesystem::path(arguments.output);
+    const std::filesystem::path folder = arguments.output.empty() ? workspace.root() / "models" / arguments.method.name
+                                                                  : std::filesystem::path(arguments.output);
     std::vector<std::string> hidden;
     for (const auto& subject : workspace.subjects())
         if (workspace.hidden(subject)) hidden.push_back(subject);
@@ -35,15 +35,19 @@ int run(Arguments& arguments) {
     Progress progress(arguments.common, "model", arguments.sources.size() * arguments.expressions.size());
     for (const auto& source : arguments.sources) {
         if (workspace.hidden(source))
-            throw InputError(fmt::format("subject '{}' stands in unallowed_subjects.txt; a model of it must not leave the database", source));
+            throw InputError(fmt::format(
+                "subject '{}' stands in unallowed_subjects.txt; a model of it must not leave the database", source));
         for (const auto& expression : arguments.expressions) {
             try {
                 const auto model = modeling::model_from_workspace(workspace, catalogue, expression, {source, hidden},
                                                                   arguments.method.model_options());
                 const auto file = folder / source / (model.expression + ".json");
                 modeling::write_expression_model(file, model);
-                written.push_back({{"file", file.string()}, {"expression", model.expression}, {"source", source},
-                                   {"points", model.points.size()}, {"left_out", model.left_out},
+                written.push_back({{"file", file.string()},
+                                   {"expression", model.expression},
+                                   {"source", source},
+                                   {"points", model.points.size()},
+                                   {"left_out", model.left_out},
                                    {"largest_displacement_mm", model.largest_displacement_mm()}});
             } catch (const std::exception& e) {
                 failures.push_back(fmt::format("{} of {}: {}", expression, source, e.what()));
@@ -62,12 +66,17 @@ int run(Arguments& arguments) {
 }  // namespace
 
 void add_model_command(CLI::App& app, int& exit_code) {
-    auto* command = app.add_subcommand("model", "Measure expressions as control points and displacements, one file each");
+    auto* command =
+        app.add_subcommand("model", "Measure expressions as control points and displacements, one file each");
     auto arguments = std::make_shared<Arguments>();
     arguments->expressions = {"1", "2", "4", "12", "14", "15", "17", "20"};
     command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
-    command->add_option("--source", arguments->sources, "Subjects, or mean (of all)")->delimiter(',')->capture_default_str();
-    command->add_option("--expression", arguments->expressions, "AUs and emotions")->delimiter(',')->capture_default_str();
+    command->add_option("--source", arguments->sources, "Subjects, or mean (of all)")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--expression", arguments->expressions, "AUs and emotions")
+        ->delimiter(',')
+        ->capture_default_str();
     command->add_option("-o,--output", arguments->output, "Folder (default: models/<method> in the workspace)");
     arguments->method.add_to(*command);
     add_common_options(*command, arguments->common);

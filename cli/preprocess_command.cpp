@@ -46,7 +46,8 @@ int run(Arguments& arguments) {
                                      megabytes, arguments.output);
         return exit_done;
     }
-    // Which part of a face an expression leaves alone is the catalogue's knowledge; codes it lacks get the general answer.
+    // Which part of a face an expression leaves alone is the catalogue's knowledge; codes it lacks get the general
+    // answer.
     const auto stable_region = [](const database::ScanId& scan, const preprocessing::Face& neutral) {
         if (scan.neutral()) return preprocessing::stable_on_every_face(neutral);
         try {

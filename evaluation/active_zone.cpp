@@ -58,7 +58,8 @@ ActiveZone active_zone_from_truth(const std::string& expression, const AverageFa
             const auto& t = triangles[hits[v].triangle];
             Vector displacement = Vector::Zero();
             for (std::size_t k = 0; k < 3; ++k)
-                displacement += hits[v].barycentric[static_cast<Eigen::Index>(k)] * subject.true_expression->displacement_mm[t[k]];
+                displacement +=
+                    hits[v].barycentric[static_cast<Eigen::Index>(k)] * subject.true_expression->displacement_mm[t[k]];
             sum[v] += average_from_head * displacement;
         }
     }

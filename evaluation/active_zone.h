@@ -26,16 +26,20 @@ struct TrueSubject {
     const synthesis::TrueScan* true_expression = nullptr;  ///< displacement_mm from the neutral scan
 };
 
-/// Active where the length of the mean true displacement over subjects exceeds `share` of its maximum on the average face.
-[[nodiscard]] ActiveZone active_zone_from_truth(const std::string& expression, const preprocessing::AverageFace& average,
+/// Active where the length of the mean true displacement over subjects exceeds `share` of its maximum on the average
+/// face.
+[[nodiscard]] ActiveZone active_zone_from_truth(const std::string& expression,
+                                                const preprocessing::AverageFace& average,
                                                 std::span<const TrueSubject> subjects, double share = 0.2);
 
 /// The same region as the catalogue draws it, for databases without a truth.
-[[nodiscard]] ActiveZone active_zone_from_catalogue(const std::string& expression, const preprocessing::AverageFace& average,
+[[nodiscard]] ActiveZone active_zone_from_catalogue(const std::string& expression,
+                                                    const preprocessing::AverageFace& average,
                                                     const modeling::FacsCatalogue& catalogue);
 
-/// The zone on a face's own grid: every vertex goes to the average face by the landmark spline and takes what the nearest
-/// average vertex has. Vertices outside the face, or farther than 5 mm off the average face's rim, are not active.
+/// The zone on a face's own grid: every vertex goes to the average face by the landmark spline and takes what the
+/// nearest average vertex has. Vertices outside the face, or farther than 5 mm off the average face's rim, are not
+/// active.
 [[nodiscard]] std::vector<char> carry_zone(const ActiveZone& zone, const preprocessing::AverageFace& average,
                                            const preprocessing::Face& face);
 

@@ -26,7 +26,8 @@ using preprocessing::Face;
 
 Method method_by_name(const std::string& name) {
     if (name == "thesis")
-        return {name, RowKind::one_source, modeling::ModelOptions::thesis(), animation::AnimationOptions::thesis(), 1.0};
+        return {name, RowKind::one_source, modeling::ModelOptions::thesis(), animation::AnimationOptions::thesis(),
+                1.0};
     if (name == "default") return {name, RowKind::one_source, {}, {}, 1.0};
     if (name == "mean") return {name, RowKind::mean, {}, {}, 1.0};
     throw InputError(fmt::format("method '{}' is unknown; there are: thesis, default, mean", name));
@@ -36,10 +37,10 @@ namespace {
 
 /// Everything about one target that all methods share.
 struct Target {
-    std::vector<std::uint32_t> vertices;  ///< scored: measured, and doing nothing does not hit the border
-    std::vector<char> in_zone;            ///< parallel to `vertices`
-    std::vector<double> nothing_mm;       ///< parallel to `vertices`
-    std::vector<Vector> true_displacement_mm;  ///< parallel to `vertices`, scanner frame; empty without a truth
+    std::vector<std::uint32_t> vertices;               ///< scored: measured, and doing nothing does not hit the border
+    std::vector<char> in_zone;                         ///< parallel to `vertices`
+    std::vector<double> nothing_mm;                    ///< parallel to `vertices`
+    std::vector<Vector> true_displacement_mm;          ///< parallel to `vertices`, scanner frame; empty without a truth
     std::optional<geometry::SurfaceIndex> expressive;  ///< the real expressive scan, in the neutral's scanner frame
 };
 
@@ -56,7 +57,8 @@ struct MaterialPoints {
     std::vector<Eigen::Vector3d> barycentric;
     [[nodiscard]] Vector of(const std::vector<Vector>& field, std::size_t k) const {
         Vector value = Vector::Zero();
-        for (std::size_t c = 0; c < 3; ++c) value += barycentric[k][static_cast<Eigen::Index>(c)] * field[triangles[k][c]];
+        for (std::size_t c = 0; c < 3; ++c)
+            value += barycentric[k][static_cast<Eigen::Index>(c)] * field[triangles[k][c]];
         return value;
     }
 };
@@ -86,8 +88,8 @@ std::vector<std::string> shown_subjects(const preprocessing::Workspace& workspac
     return subjects;
 }
 
-CaseResult judge(const Target& target, const std::vector<Point>& animated_mm, const std::vector<Vector>& displacement_mm,
-                 const geometry::QuadGrid& grid, bool whole_face) {
+CaseResult judge(const Target& target, const std::vector<Point>& animated_mm,
+                 const std::vector<Vector>& displacement_mm, const geometry::QuadGrid& grid, bool whole_face) {
     CaseResult result;
     result.done = true;
     std::vector<Point> queries;
@@ -176,7 +178,8 @@ std::size_t experiment_steps(const preprocessing::Workspace& workspace, const Ex
 }
 
 ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const modeling::FacsCatalogue& catalogue,
-                                const ExperimentOptions& options, const std::function<void(const std::string&)>& progress) {
+                                const ExperimentOptions& options,
+                                const std::function<void(const std::string&)>& progress) {
     const auto start = std::chrono::steady_clock::now();
     ExperimentReport report;
     report.subjects = shown_subjects(workspace);
@@ -190,7 +193,8 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
     const auto& average = workspace.average();
     const auto& subjects = report.subjects;
 
-    for (const auto& method : options.methods) report.rows.push_back({method.name, method.kind, false, {}, 0, 0, 0, {}});
+    for (const auto& method : options.methods)
+        report.rows.push_back({method.name, method.kind, false, {}, 0, 0, 0, {}});
     const bool with_reference = options.reference && has_truth;
     if (with_reference) {
         report.rows.push_back({"true field, one source", RowKind::one_source, true, {}, 0, 0, 0, {}});
@@ -226,7 +230,8 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
             }
         const std::size_t n = who.size();
         if (n < 3)
-            throw InputError(fmt::format("expression '{}': {} subjects show it; an experiment needs three or more", code, n));
+            throw InputError(
+                fmt::format("expression '{}': {} subjects show it; an experiment needs three or more", code, n));
 
         std::vector<Face> expressives(n);
         std::vector<synthesis::TrueScan> true_expressives(has_truth ? n : 0);
@@ -239,15 +244,17 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
                     // From the neutral scan as it was, its micro-expression included, not from a face at rest.
                     true_expressives[k] = synthesis::load_true_scan(*truth, ids[k]);
                     const auto& at_rest = true_neutrals[who[k]].displacement_mm;
-                    for (std::size_t v = 0; v < at_rest.size(); ++v) true_expressives[k].displacement_mm[v] -= at_rest[v];
+                    for (std::size_t v = 0; v < at_rest.size(); ++v)
+                        true_expressives[k].displacement_mm[v] -= at_rest[v];
                 }
                 for (std::size_t m = 0; m < options.methods.size(); ++m) {
                     // Methods that model alike (default and mean) share the work.
                     try {
-                        models[m][k] = modeling::measure_expression(catalogue, code, average, neutrals[who[k]], expressives[k],
-                                                                    options.methods[m].model);
+                        models[m][k] = modeling::measure_expression(catalogue, code, average, neutrals[who[k]],
+                                                                    expressives[k], options.methods[m].model);
                     } catch (const std::exception& e) {
-                        fail(fmt::format("{} of {} by {}: {}", code, ids[k].subject, options.methods[m].name, e.what()));
+                        fail(
+                            fmt::format("{} of {} by {}: {}", code, ids[k].subject, options.methods[m].name, e.what()));
                     }
                 }
             }
@@ -274,9 +281,10 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
                         neutral_from_expressive = true_neutrals[who[t]].scanner_from_head *
                                                   true_expressives[t].scanner_from_head.inverse(Eigen::Isometry);
                     std::vector<Point> vertices;
-                    for (const auto& p : expressives[t].grid.vertices_mm) vertices.emplace_back(neutral_from_expressive * p);
-                    target.expressive.emplace(vertices,
-                                              geometry::triangles(expressives[t].grid, geometry::BridgedVertices::leave_out));
+                    for (const auto& p : expressives[t].grid.vertices_mm)
+                        vertices.emplace_back(neutral_from_expressive * p);
+                    target.expressive.emplace(
+                        vertices, geometry::triangles(expressives[t].grid, geometry::BridgedVertices::leave_out));
                 }
                 const auto zone_here = carry_zone(zone, average, neutral);
                 {
@@ -309,15 +317,18 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
 
                 std::vector<std::size_t> sources;
                 for (std::size_t step = 1; step < n; ++step) {
-                    if (options.max_sources > 0 && sources.size() >= static_cast<std::size_t>(options.max_sources)) break;
+                    if (options.max_sources > 0 && sources.size() >= static_cast<std::size_t>(options.max_sources))
+                        break;
                     sources.push_back((t + step) % n);
                 }
 
                 const auto put = [&](const Method& method, const ExpressionModel& model) {
-                    const auto& prepared = method.model.frame == modeling::Frame::affine ? *affine[who[t]] : *similar[who[t]];
+                    const auto& prepared =
+                        method.model.frame == modeling::Frame::affine ? *affine[who[t]] : *similar[who[t]];
                     const animation::WeightedExpression weighted{&model, method.magnitude};
                     const auto animated = animation::animate(prepared, std::span(&weighted, 1), method.animation);
-                    auto result = judge(target, animated.grid.vertices_mm, animated.displacement_mm, neutral.grid, options.whole_face);
+                    auto result = judge(target, animated.grid.vertices_mm, animated.displacement_mm, neutral.grid,
+                                        options.whole_face);
                     result.step_mm = animated.largest_neighbour_step_mm;
                     return result;
                 };
@@ -346,7 +357,8 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
                         try {
                             cases[m][t * n + s] = models[m][s] ? put(method, *models[m][s]) : nothing();
                         } catch (const std::exception& e) {
-                            fail(fmt::format("{}: {} -> {} by {}: {}", code, subjects[who[s]], subjects[who[t]], method.name, e.what()));
+                            fail(fmt::format("{}: {} -> {} by {}: {}", code, subjects[who[s]], subjects[who[t]],
+                                             method.name, e.what()));
                             cases[m][t * n + s] = nothing();
                         }
                     }
@@ -356,13 +368,16 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
                     std::vector<Vector> field(neutral.grid.size(), Vector::Zero()), mean_field = field;
                     std::vector<Point> moved(neutral.grid.size());
                     const auto judge_field = [&](const std::vector<Vector>& displacement) {
-                        for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = neutral.grid.vertices_mm[v] + displacement[v];
+                        for (std::size_t v = 0; v < moved.size(); ++v)
+                            moved[v] = neutral.grid.vertices_mm[v] + displacement[v];
                         return judge(target, moved, displacement, neutral.grid, options.whole_face);
                     };
                     for (const auto s : sources) {
                         for (std::size_t k = 0; k < target.vertices.size(); ++k) {
-                            field[target.vertices[k]] = scanner_from_head * material.of(true_expressives[s].displacement_mm, k);
-                            mean_field[target.vertices[k]] += field[target.vertices[k]] / static_cast<double>(sources.size());
+                            field[target.vertices[k]] =
+                                scanner_from_head * material.of(true_expressives[s].displacement_mm, k);
+                            mean_field[target.vertices[k]] +=
+                                field[target.vertices[k]] / static_cast<double>(sources.size());
                         }
                         cases[one][t * n + s] = judge_field(field);
                     }

@@ -28,7 +28,8 @@ struct Method {
     double magnitude = 1.0;
 };
 
-/// "thesis" (as printed), "default" (one source), "mean" (of all other subjects on the average face). @throws InputError.
+/// "thesis" (as printed), "default" (one source), "mean" (of all other subjects on the average face). @throws
+/// InputError.
 [[nodiscard]] Method method_by_name(const std::string& name);
 
 struct ExperimentOptions {
@@ -46,9 +47,9 @@ struct Score {
     double explained_whole = 0.0;   ///< the same over the whole face
     double error_mm = 0.0;          ///< mean over cases
     double nothing_mm = 0.0;
-    double true_error_mm = -1.0;    ///< mean 3D distance to the true position of the same material point; -1: no truth
+    double true_error_mm = -1.0;  ///< mean 3D distance to the true position of the same material point; -1: no truth
     double nothing_true_mm = -1.0;
-    double largest_step_mm = 0.0;   ///< largest crack between neighbouring vertices, mean over cases
+    double largest_step_mm = 0.0;  ///< largest crack between neighbouring vertices, mean over cases
     std::size_t cases = 0;
     std::size_t worse_than_nothing = 0;
     std::size_t left_out_vertices = 0;  ///< scored as doing nothing
@@ -59,10 +60,10 @@ struct MethodScores {
     RowKind kind = RowKind::one_source;
     bool reference = false;
     std::map<std::string, Score> per_expression;
-    double explained = 0.0;        ///< mean over the expressions
+    double explained = 0.0;  ///< mean over the expressions
     double explained_median = 0.0;
     double explained_whole = 0.0;
-    std::optional<double> share;   ///< explained / explained by the true field of the same kind
+    std::optional<double> share;  ///< explained / explained by the true field of the same kind
 };
 
 struct ExperimentReport {
@@ -76,7 +77,8 @@ struct ExperimentReport {
 };
 
 /// Scores methods on every ordered pair source -> target of a workspace, as docs/algorithms/scoring.md defines it.
-/// Subjects that must not be shown take part in no case. @throws InputError if fewer than 3 subjects show an expression.
+/// Subjects that must not be shown take part in no case. @throws InputError if fewer than 3 subjects show an
+/// expression.
 [[nodiscard]] ExperimentReport run_experiment(const preprocessing::Workspace& workspace,
                                               const modeling::FacsCatalogue& catalogue,
                                               const ExperimentOptions& options = {},

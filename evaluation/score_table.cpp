@@ -42,23 +42,29 @@ std::string to_markdown(const ExperimentReport& report) {
         text += fmt::format(" {} |", label(expression));
         rule += " ---: |";
     }
-    text += " mean | median case | share | whole face | worse than nothing |\n" + rule + " ---: | ---: | ---: | ---: | ---: |\n";
+    text += " mean | median case | share | whole face | worse than nothing |\n" + rule +
+            " ---: | ---: | ---: | ---: | ---: |\n";
     for (const auto& row : report.rows) {
         text += fmt::format("| {} | {} |", row.reference ? "*" + row.method + "*" : row.method, kind_name(row.kind));
-        for (const auto& expression : report.expressions) text += fmt::format(" {:.2f} |", row.per_expression.at(expression).explained);
+        for (const auto& expression : report.expressions)
+            text += fmt::format(" {:.2f} |", row.per_expression.at(expression).explained);
         const auto total = pooled(row);
-        text += fmt::format(" **{:.3f}** | {:.3f} | {} | {:.2f} | {:.1f} % of {} |\n", row.explained, row.explained_median,
-                            row.share ? fmt::format("{:.2f}", *row.share) : "", row.explained_whole,
-                            total.cases ? 100.0 * static_cast<double>(total.worse) / static_cast<double>(total.cases) : 0.0,
-                            total.cases);
+        text +=
+            fmt::format(" **{:.3f}** | {:.3f} | {} | {:.2f} | {:.1f} % of {} |\n", row.explained, row.explained_median,
+                        row.share ? fmt::format("{:.2f}", *row.share) : "", row.explained_whole,
+                        total.cases ? 100.0 * static_cast<double>(total.worse) / static_cast<double>(total.cases) : 0.0,
+                        total.cases);
     }
-    text += "\nMean error in mm (distance to the real scan / to the true position of the same skin point):\n\n| method | kind |";
+    text +=
+        "\nMean error in mm (distance to the real scan / to the true position of the same skin point):\n\n| method | "
+        "kind |";
     for (const auto& expression : report.expressions) text += fmt::format(" {} |", label(expression));
     text += "\n| --- | --- |";
     for (std::size_t k = 0; k < report.expressions.size(); ++k) text += " ---: |";
     text += "\n| doing nothing | |";
     const auto cell = [](double surface_mm, double true_mm) {
-        return true_mm < 0 ? fmt::format(" {:.2f} |", surface_mm) : fmt::format(" {:.2f} / {:.2f} |", surface_mm, true_mm);
+        return true_mm < 0 ? fmt::format(" {:.2f} |", surface_mm)
+                           : fmt::format(" {:.2f} / {:.2f} |", surface_mm, true_mm);
     };
     for (const auto& expression : report.expressions) {
         const auto& score = report.rows.front().per_expression.at(expression);
@@ -82,16 +88,17 @@ std::string to_markdown(const ExperimentReport& report) {
 
 std::string to_csv(const ExperimentReport& report) {
     std::string text =
-        "method,kind,reference,expression,explained,explained_median,explained_whole_face,error_mm,nothing_mm,true_error_mm,"
+        "method,kind,reference,expression,explained,explained_median,explained_whole_face,error_mm,nothing_mm,true_"
+        "error_mm,"
         "nothing_true_mm,largest_step_mm,cases,worse_than_nothing,left_out_vertices\n";
     for (const auto& row : report.rows)
         for (const auto& expression : report.expressions) {
             const auto& s = row.per_expression.at(expression);
-            text += fmt::format("\"{}\",{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{},{},{}\n", row.method,
-                                kind_name(row.kind), row.reference ? 1 : 0, expression, s.explained, s.explained_median,
-                                s.explained_whole, s.error_mm, s.nothing_mm, optional_number(s.true_error_mm),
-                                optional_number(s.nothing_true_mm), s.largest_step_mm, s.cases, s.worse_than_nothing,
-                                s.left_out_vertices);
+            text += fmt::format("\"{}\",{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{},{},{}\n",
+                                row.method, kind_name(row.kind), row.reference ? 1 : 0, expression, s.explained,
+                                s.explained_median, s.explained_whole, s.error_mm, s.nothing_mm,
+                                optional_number(s.true_error_mm), optional_number(s.nothing_true_mm), s.largest_step_mm,
+                                s.cases, s.worse_than_nothing, s.left_out_vertices);
         }
     return text;
 }
@@ -110,7 +117,8 @@ std::string to_json(const ExperimentReport& report) {
                                   {"cases", s.cases},
                                   {"worse_than_nothing", s.worse_than_nothing},
                                   {"left_out_vertices", s.left_out_vertices}};
-            scores[expression]["true_error_mm"] = s.true_error_mm < 0 ? nlohmann::json() : nlohmann::json(s.true_error_mm);
+            scores[expression]["true_error_mm"] =
+                s.true_error_mm < 0 ? nlohmann::json() : nlohmann::json(s.true_error_mm);
         }
         rows.push_back({{"method", row.method},
                         {"kind", kind_name(row.kind)},

@@ -15,10 +15,11 @@ namespace mimik::geometry {
 /// gives both sizes).
 [[nodiscard]] std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file,
                                                    std::uintmax_t max_bytes = std::uintmax_t{1} << 31);
-[[nodiscard]] std::string read_text(const std::filesystem::path& file, std::uintmax_t max_bytes = std::uintmax_t{1} << 28);
+[[nodiscard]] std::string read_text(const std::filesystem::path& file,
+                                    std::uintmax_t max_bytes = std::uintmax_t{1} << 28);
 
-/// Writes to a temporary beside `file`, then renames: nobody ever sees half a file. Folders are made. The stream has the
-/// classic locale. @throws InputError naming the file if it cannot be written.
+/// Writes to a temporary beside `file`, then renames: nobody ever sees half a file. Folders are made. The stream has
+/// the classic locale. @throws InputError naming the file if it cannot be written.
 void write_atomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 void write_atomically(const std::filesystem::path& file, std::string_view content);
 

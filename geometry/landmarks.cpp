@@ -19,9 +19,10 @@ Landmarks::Landmarks(std::vector<Landmark> marks) : marks_(std::move(marks)) {
         if (!seen.insert(mark.name).second)
             throw InputError(fmt::format("landmark '{}' appears twice; keep one of the two", mark.name));
         if (!mark.position_mm.allFinite())
-            throw InputError(fmt::format("landmark '{}' has a coordinate that is not a finite number; mark it again or "
-                                         "delete it",
-                                         mark.name));
+            throw InputError(
+                fmt::format("landmark '{}' has a coordinate that is not a finite number; mark it again or "
+                            "delete it",
+                            mark.name));
     }
 }
 
@@ -58,12 +59,17 @@ Landmarks transformed(const Landmarks& landmarks, const Transform& target_from_s
 }
 
 std::span<const std::string_view> standard_landmark_names() {
-    static constexpr std::array<std::string_view, 22> names = {
-        "brow_outer_right", "brow_middle_right", "brow_inner_right", "brow_inner_left",   "brow_middle_left",
-        "brow_outer_left",  "eye_outer_right",   "eye_inner_right",  "eye_inner_left",    "eye_outer_left",
-        "nose_saddle_right", "nose_saddle_left", "nose_wing_right",  "nose_tip",          "nose_wing_left",
-        "mouth_corner_right", "upper_lip_outer", "mouth_corner_left", "upper_lip_inner",  "lower_lip_inner",
-        "lower_lip_outer",  "chin"};
+    static constexpr std::array<std::string_view, 22> names = {"brow_outer_right",  "brow_middle_right",
+                                                               "brow_inner_right",  "brow_inner_left",
+                                                               "brow_middle_left",  "brow_outer_left",
+                                                               "eye_outer_right",   "eye_inner_right",
+                                                               "eye_inner_left",    "eye_outer_left",
+                                                               "nose_saddle_right", "nose_saddle_left",
+                                                               "nose_wing_right",   "nose_tip",
+                                                               "nose_wing_left",    "mouth_corner_right",
+                                                               "upper_lip_outer",   "mouth_corner_left",
+                                                               "upper_lip_inner",   "lower_lip_inner",
+                                                               "lower_lip_outer",   "chin"};
     return names;
 }
 

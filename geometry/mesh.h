@@ -46,6 +46,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 [[nodiscard]] std::vector<Triangle> triangulate(const Faces& faces);
 
 /// Unit normals per vertex, area weighted; zero where no face touches the vertex.
-[[nodiscard]] std::vector<Vector> vertex_normals(std::span<const Point> vertices_mm, std::span<const Triangle> triangles);
+[[nodiscard]] std::vector<Vector> vertex_normals(std::span<const Point> vertices_mm,
+                                                 std::span<const Triangle> triangles);
 
 }  // namespace mimik::geometry

@@ -16,7 +16,8 @@ std::unique_ptr<tbb::global_control>& control() {
 }  // namespace
 
 void set_thread_count(int threads) {
-    const auto limit = static_cast<std::size_t>(threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency()));
+    const auto limit =
+        static_cast<std::size_t>(threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency()));
     control().reset();
     control() = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, limit);
 }

@@ -11,9 +11,10 @@ namespace mimik::geometry {
 
 /// One scan as measured: holes, spikes and background still in it. Scanner frame, mm.
 struct RangeScan {
-    int rows = 0;                  ///< of the scanner's lattice; row 0 is the lowest row (chin side)
-    int cols = 0;                  ///< 0 x 0: not organised (a mesh or a bare cloud)
-    std::vector<Point> points_mm;  ///< [row * cols + col], NaN where the scanner measured nothing; or any order if 0 x 0
+    int rows = 0;  ///< of the scanner's lattice; row 0 is the lowest row (chin side)
+    int cols = 0;  ///< 0 x 0: not organised (a mesh or a bare cloud)
+    std::vector<Point>
+        points_mm;  ///< [row * cols + col], NaN where the scanner measured nothing; or any order if 0 x 0
     std::vector<TextureCoordinate> texture_coordinates;  ///< empty, or one per point
     Faces faces;                                         ///< only where a mesh file gave them
     std::string texture_file;                            ///< file name beside the scan, no folder; empty: no texture

@@ -30,7 +30,8 @@ const char* suffix(Side side) { return side == Side::right ? "_right" : "_left";
 /// Onto the surface along the depth axis, as a scanner sees it.
 bool drop_on_surface(const geometry::SurfaceIndex& surface, Point& position) {
     geometry::SurfacePoint hit;
-    if (!surface.first_hit({position.x(), position.y(), position.z() + 300.0}, -geometry::Vector::UnitZ(), hit)) return false;
+    if (!surface.first_hit({position.x(), position.y(), position.z() + 300.0}, -geometry::Vector::UnitZ(), hit))
+        return false;
     position = hit.position_mm;
     return true;
 }
@@ -43,7 +44,8 @@ void hexagonal_lattice(const Point& origin, double spacing_mm, double reach_mm, 
     for (int row = -rows; row <= rows; ++row)
         for (int col = -cols; col <= cols; ++col) {
             // Odd rows are shifted by half a step both ways, so that mirroring maps the lattice onto itself.
-            const double shift = row % 2 != 0 ? (col < 0 ? 0.5 : (col > 0 ? -0.5 : std::numeric_limits<double>::quiet_NaN())) : 0.0;
+            const double shift =
+                row % 2 != 0 ? (col < 0 ? 0.5 : (col > 0 ? -0.5 : std::numeric_limits<double>::quiet_NaN())) : 0.0;
             if (std::isnan(shift)) continue;
             visit(row, col, Point(origin.x() + (col + shift) * spacing_mm, origin.y() + row * row_mm, origin.z()));
         }
@@ -62,13 +64,15 @@ Point place(const Placement& placement, const Landmarks& landmarks, Side side) {
     return position + Point(away * placement.lateral * unit, placement.up * unit, 0.0);
 }
 
-ExpressionZone::ExpressionZone(const FacsCatalogue& catalogue, const std::string& expression, const Landmarks& landmarks)
+ExpressionZone::ExpressionZone(const FacsCatalogue& catalogue, const std::string& expression,
+                               const Landmarks& landmarks)
     : unit_mm_(eye_distance_mm(landmarks)) {
     for (const auto& sided : catalogue.resolve(expression))
         for (const auto side : sides_of(sided))
             for (const auto& ellipse : sided.unit->zone) {
                 const Point centre = place(ellipse.centre, landmarks, side);
-                ellipses_.push_back({centre.x(), centre.y(), ellipse.lateral_radius * unit_mm_, ellipse.up_radius * unit_mm_});
+                ellipses_.push_back(
+                    {centre.x(), centre.y(), ellipse.lateral_radius * unit_mm_, ellipse.up_radius * unit_mm_});
             }
 }
 
@@ -90,7 +94,8 @@ PlacedControls place_controls(const FacsCatalogue& catalogue, const std::string&
     const double unit = eye_distance_mm(landmarks);
     const auto& sampling = catalogue.sampling();
     const double apart_mm = sampling.min_separation * unit;
-    const auto near = [](const std::vector<ControlPoint>& points, const Point& p, double reach_mm) -> const ControlPoint* {
+    const auto near = [](const std::vector<ControlPoint>& points, const Point& p,
+                         double reach_mm) -> const ControlPoint* {
         for (const auto& other : points)
             if ((other.position_mm - p).norm() < reach_mm) return &other;
         return nullptr;
@@ -100,12 +105,14 @@ PlacedControls place_controls(const FacsCatalogue& catalogue, const std::string&
     for (const auto& sided : units)
         for (const auto& point : sided.unit->points)
             for (const auto side : sides_of(sided)) {
-                const bool midline = std::all_of(point.placement.at.begin(), point.placement.at.end(),
-                                                 [&](const auto& term) { return landmarks.find(term.first) != nullptr; }) &&
-                                     point.placement.lateral == 0.0;
+                const bool midline =
+                    std::all_of(point.placement.at.begin(), point.placement.at.end(),
+                                [&](const auto& term) { return landmarks.find(term.first) != nullptr; }) &&
+                    point.placement.lateral == 0.0;
                 if (midline && side == Side::right && sided.side == Side::both) continue;
-                ControlPoint control{fmt::format("AU{}.{}{}", sided.unit->number, point.name, midline ? "" : suffix(side)),
-                                     point.kind, place(point.placement, landmarks, side)};
+                ControlPoint control{
+                    fmt::format("AU{}.{}{}", sided.unit->number, point.name, midline ? "" : suffix(side)), point.kind,
+                    place(point.placement, landmarks, side)};
                 if (!drop_on_surface(surface, control.position_mm)) {
                     placed.left_out.push_back(control.name + ": off the face");
                 } else if (const auto* other = near(placed.controls, control.position_mm, 0.3 * apart_mm)) {
@@ -130,8 +137,9 @@ PlacedControls place_controls(const FacsCatalogue& catalogue, const std::string&
     return placed;
 }
 
-std::vector<char> stable_vertices(const FacsCatalogue& catalogue, const std::string& expression, const geometry::QuadGrid& grid,
-                                  const Landmarks& landmarks, const geometry::Transform& average_from_scan) {
+std::vector<char> stable_vertices(const FacsCatalogue& catalogue, const std::string& expression,
+                                  const geometry::QuadGrid& grid, const Landmarks& landmarks,
+                                  const geometry::Transform& average_from_scan) {
     const auto upright = geometry::transformed(landmarks, average_from_scan);
     const ExpressionZone zone(catalogue, expression, upright);
     const double margin = catalogue.sampling().anchor_margin;

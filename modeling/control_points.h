@@ -25,11 +25,12 @@ struct PlacedControls {
 };
 
 /// Places the points of an expression on a face: catalogue points, coverage points on a hexagonal lattice inside the
-/// zones, anchors on a wider one outside them. All are brought to the surface along z. Names depend on the catalogue and
-/// the landmarks' frame alone, so that points of one name correspond between faces.
+/// zones, anchors on a wider one outside them. All are brought to the surface along z. Names depend on the catalogue
+/// and the landmarks' frame alone, so that points of one name correspond between faces.
 /// @param expression  "12", "4L", "HAPPY", ... @throws InputError if it or a landmark it needs is unknown.
 [[nodiscard]] PlacedControls place_controls(const FacsCatalogue& catalogue, const std::string& expression,
-                                            const geometry::Landmarks& landmarks, const geometry::SurfaceIndex& surface);
+                                            const geometry::Landmarks& landmarks,
+                                            const geometry::SurfaceIndex& surface);
 
 /// How far outside the expression's zones a point is, in outer-eye distances; negative inside.
 class ExpressionZone {
@@ -46,7 +47,8 @@ private:
 };
 
 /// Position of a placement on one side (left or right).
-[[nodiscard]] geometry::Point place(const Placement& placement, const geometry::Landmarks& landmarks, database::Side side);
+[[nodiscard]] geometry::Point place(const Placement& placement, const geometry::Landmarks& landmarks,
+                                    database::Side side);
 
 /// Vertices (1) that the expression leaves alone: measured, and outside its zones by the anchor margin. If fewer than a
 /// tenth are, the nose bridge, inner eye corners and temples.

@@ -87,7 +87,8 @@ struct Correspondences {
         names.push_back(name);
     }
     void add(const Landmarks& source, const Landmarks& target) {
-        for (const auto& pair : geometry::pair_by_name(source, target).pairs) add(pair.name, pair.source_mm, pair.target_mm);
+        for (const auto& pair : geometry::pair_by_name(source, target).pairs)
+            add(pair.name, pair.source_mm, pair.target_mm);
     }
     [[nodiscard]] ThinPlateSpline spline(const ModelOptions& options) const {
         return ThinPlateSpline::fit(from, to, {.kernel = options.kernel, .smoothing = options.smoothing}, names);
@@ -106,8 +107,9 @@ bool wanted(ControlKind kind, const ModelOptions& options) {
 
 }  // namespace
 
-ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::string& expression, const AverageFace& average,
-                                   const Face& neutral, const Face& expressive, const ModelOptions& options) {
+ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::string& expression,
+                                   const AverageFace& average, const Face& neutral, const Face& expressive,
+                                   const ModelOptions& options) {
     options.check();
     const auto units = catalogue.resolve(expression);
     ExpressionModel model;
@@ -121,8 +123,8 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
     const auto& to_average_too = average_from_scan(expressive, options.frame);
     const auto neutral_marks =
         geometry::transformed(options.snap_to_vertices ? neutral.snapped_landmarks : neutral.landmarks, to_average);
-    const auto expressive_marks =
-        geometry::transformed(options.snap_to_vertices ? expressive.snapped_landmarks : expressive.landmarks, to_average_too);
+    const auto expressive_marks = geometry::transformed(
+        options.snap_to_vertices ? expressive.snapped_landmarks : expressive.landmarks, to_average_too);
     const NormalisedSurface neutral_surface(neutral.grid, to_average, geometry::BridgedVertices::keep);
     const NormalisedSurface expressive_surface(expressive.grid, to_average_too, geometry::BridgedVertices::keep);
 
@@ -137,9 +139,11 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
         pairs.add(average.landmarks, neutral_marks);
         const auto source_from_average = pairs.spline(options);
         for (const auto& control : placed.controls)
-            controls_on_source.push_back(neutral_surface.nearest(source_from_average(control.position_mm), options.snap_to_vertices));
+            controls_on_source.push_back(
+                neutral_surface.nearest(source_from_average(control.position_mm), options.snap_to_vertices));
         for (const auto& anchor : placed.anchors)
-            anchors_on_source.push_back(neutral_surface.nearest(source_from_average(anchor.position_mm), options.snap_to_vertices));
+            anchors_on_source.push_back(
+                neutral_surface.nearest(source_from_average(anchor.position_mm), options.snap_to_vertices));
     } else {
         placed = place_controls(catalogue, expression, neutral_marks, neutral_surface.surface());
         model.landmarks = neutral_marks;
@@ -164,7 +168,8 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
         if (!wanted(control.kind, options)) continue;
         const Point carried = expressive_from_neutral(controls_on_source[k]);
         const Point found = expressive_surface.nearest(carried, options.snap_to_vertices);
-        model.points.push_back({control.name, control.kind, control.position_mm, found - controls_on_source[k], (found - carried).norm()});
+        model.points.push_back(
+            {control.name, control.kind, control.position_mm, found - controls_on_source[k], (found - carried).norm()});
     }
     if (options.anchors)
         for (const auto& anchor : placed.anchors)
@@ -182,9 +187,11 @@ ExpressionModel mean_expression(std::span<const ExpressionModel> models) {
         if (model.expression != mean.expression || model.frame != mean.frame)
             throw InputError(fmt::format("{} and {} do not go together in a mean", mean.expression, model.expression));
         for (const auto& mark : mean.landmarks.all())
-            if (const auto* other = model.landmarks.find(mark.name); !other || (other->position_mm - mark.position_mm).norm() > 1e-9)
-                throw InputError(fmt::format("{}: models of {} and {} stand on different faces; model them on the average face",
-                                             mean.expression, mean.sources.front(), model.sources.front()));
+            if (const auto* other = model.landmarks.find(mark.name);
+                !other || (other->position_mm - mark.position_mm).norm() > 1e-9)
+                throw InputError(
+                    fmt::format("{}: models of {} and {} stand on different faces; model them on the average face",
+                                mean.expression, mean.sources.front(), model.sources.front()));
         mean.sources.insert(mean.sources.end(), model.sources.begin(), model.sources.end());
         for (const auto& point : model.points) {
             const auto found = place.find(point.name);
@@ -245,7 +252,8 @@ ExpressionModel read_expression_model(const std::filesystem::path& file) {
         model.mouth_width_mm = document.at("mouth_width_mm").get<double>();
         model.landmarks = preprocessing::landmarks_from_json(document.at("landmarks"));
         for (const auto& point : document.at("points"))
-            model.points.push_back({point.at("name").get<std::string>(), parse_control_kind(point.at("kind").get<std::string>()),
+            model.points.push_back({point.at("name").get<std::string>(),
+                                    parse_control_kind(point.at("kind").get<std::string>()),
                                     preprocessing::vector_from_json(point.at("position_mm")),
                                     preprocessing::vector_from_json(point.at("displacement_mm")),
                                     point.at("projection_mm").get<double>()});

@@ -25,12 +25,13 @@ enum class Frame {
 struct ModelOptions {
     Frame frame = Frame::similarity;
     geometry::SplineKernel kernel = geometry::SplineKernel::r;
-    double smoothing = 0.0;        ///< of the landmark splines, unit of the kernel
-    bool anchors = true;           ///< points that the AU leaves alone hold still in the neutral-to-expressive map
-    bool wrinkle_points = true;    ///< thesis 5.5.2
-    bool coverage_points = true;   ///< further points that cover the active zone evenly
-    bool snap_to_vertices = false; ///< move points to the nearest vertex (thesis) instead of the nearest surface point
-    bool place_on_average = true;  ///< place controls on the average face and carry them to the source; else on the source
+    double smoothing = 0.0;         ///< of the landmark splines, unit of the kernel
+    bool anchors = true;            ///< points that the AU leaves alone hold still in the neutral-to-expressive map
+    bool wrinkle_points = true;     ///< thesis 5.5.2
+    bool coverage_points = true;    ///< further points that cover the active zone evenly
+    bool snap_to_vertices = false;  ///< move points to the nearest vertex (thesis) instead of the nearest surface point
+    bool place_on_average =
+        true;  ///< place controls on the average face and carry them to the source; else on the source
 
     /// The thesis as printed: affine frame, r^2 ln r^2, no anchors, muscle and wrinkle points, nearest vertices.
     [[nodiscard]] static ModelOptions thesis();
@@ -46,18 +47,18 @@ struct ModelPoint {
     double projection_mm = 0.0;  ///< how far the spline's answer lay from the expressive surface
 };
 
-/// An Action Unit (or emotion) as control points and displacements in the average frame: all that is needed to put it on
-/// any face. From one source, or the mean of several on the average face.
+/// An Action Unit (or emotion) as control points and displacements in the average frame: all that is needed to put it
+/// on any face. From one source, or the mean of several on the average face.
 struct ExpressionModel {
     std::string expression;  ///< "AU12", "AU12_L", "HAPPY"
     bool moves_upper_face = false;
     bool moves_lower_face = true;
     Frame frame = Frame::similarity;
-    std::vector<std::string> sources;    ///< scans that went in, neutral and expressive in turn
-    geometry::Landmarks landmarks;       ///< of the model's neutral face, same frame as the points
-    double mouth_width_mm = 0.0;         ///< between the mouth corners of that neutral face, same frame
-    std::vector<ModelPoint> points;      ///< controls, then anchors
-    std::vector<std::string> left_out;   ///< points that could not be placed or measured, with the reason
+    std::vector<std::string> sources;   ///< scans that went in, neutral and expressive in turn
+    geometry::Landmarks landmarks;      ///< of the model's neutral face, same frame as the points
+    double mouth_width_mm = 0.0;        ///< between the mouth corners of that neutral face, same frame
+    std::vector<ModelPoint> points;     ///< controls, then anchors
+    std::vector<std::string> left_out;  ///< points that could not be placed or measured, with the reason
 
     [[nodiscard]] double largest_displacement_mm() const;
 };
@@ -65,7 +66,8 @@ struct ExpressionModel {
 /// Places the expression's points on the source's neutral face, follows them to its expressive scan (landmark spline of
 /// Eq. 5.5, then the nearest point of the expressive surface) and takes the differences (Eq. 5.6).
 /// @param expression  "12", "4L", "HAPPY": what the scan shows, or one side of it.
-/// @throws InputError if landmarks are missing or the expression is not in the catalogue; NumericalError from the spline.
+/// @throws InputError if landmarks are missing or the expression is not in the catalogue; NumericalError from the
+/// spline.
 [[nodiscard]] ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::string& expression,
                                                  const preprocessing::AverageFace& average,
                                                  const preprocessing::Face& neutral,

@@ -6,8 +6,8 @@ namespace mimik::modeling {
 
 using geometry::Point;
 
-std::vector<double> region_weights(const geometry::QuadGrid& grid, const geometry::Landmarks& landmarks, bool lower_face,
-                                   double border_mm) {
+std::vector<double> region_weights(const geometry::QuadGrid& grid, const geometry::Landmarks& landmarks,
+                                   bool lower_face, double border_mm) {
     const Point left = landmarks.position_mm("eye_outer_left"), right = landmarks.position_mm("eye_outer_right");
     const Point inner = 0.5 * (landmarks.position_mm("eye_inner_left") + landmarks.position_mm("eye_inner_right"));
     const Point eyes = 0.5 * (0.5 * (left + right) + inner);

@@ -16,7 +16,8 @@ using preprocessing::Workspace;
 
 namespace {
 
-std::optional<ScanId> scan_that_shows(const Workspace& workspace, const std::string& subject, const std::string& expression) {
+std::optional<ScanId> scan_that_shows(const Workspace& workspace, const std::string& subject,
+                                      const std::string& expression) {
     if (auto id = workspace.expression(subject, expression)) return id;
     if (!expression.empty() && (expression.back() == 'L' || expression.back() == 'R'))
         return workspace.expression(subject, expression.substr(0, expression.size() - 1));
@@ -25,8 +26,9 @@ std::optional<ScanId> scan_that_shows(const Workspace& workspace, const std::str
 
 }  // namespace
 
-ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatalogue& catalogue, const std::string& expression,
-                                     const ExpressionSource& source, const ModelOptions& options) {
+ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatalogue& catalogue,
+                                     const std::string& expression, const ExpressionSource& source,
+                                     const ModelOptions& options) {
     const auto measure = [&](const std::string& subject, const ScanId& id) {
         const auto neutral = workspace.face(workspace.neutral(subject));
         return measure_expression(catalogue, expression, workspace.average(), neutral, workspace.face(id), options);
@@ -39,7 +41,8 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
             for (const auto& scan : workspace.scans())
                 if (scan.subject == source.subject && !scan.neutral()) codes.push_back(scan.code);
             throw InputError(fmt::format("{}: subject '{}' has no scan of expression '{}'; there are: {}",
-                                         workspace.root().string(), source.subject, expression, fmt::join(codes, ", ")));
+                                         workspace.root().string(), source.subject, expression,
+                                         fmt::join(codes, ", ")));
         }
         return measure(source.subject, *id);
     }
@@ -54,8 +57,8 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
         }
     }
     if (subjects.empty())
-        throw InputError(fmt::format("{}: no other subject shows expression '{}', so there is no mean", workspace.root().string(),
-                                     expression));
+        throw InputError(fmt::format("{}: no other subject shows expression '{}', so there is no mean",
+                                     workspace.root().string(), expression));
     std::vector<std::optional<ExpressionModel>> measured(subjects.size());
     std::vector<std::string> faults(subjects.size());
     geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {

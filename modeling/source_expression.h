@@ -11,8 +11,9 @@ namespace mimik::modeling {
 
 /// Where an expression comes from: one subject, or the mean of all subjects that show it.
 struct ExpressionSource {
-    std::string subject;                ///< "bs003"; or "mean"
-    std::vector<std::string> excluded;  ///< subjects that a mean leaves out: the target, and those who must not be shown
+    std::string subject;  ///< "bs003"; or "mean"
+    std::vector<std::string>
+        excluded;  ///< subjects that a mean leaves out: the target, and those who must not be shown
 };
 
 /// The model of an expression ("12", "12L", "HAPPY") from the scans of a workspace. A one-sided AU is taken from the

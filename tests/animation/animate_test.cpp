@@ -1,9 +1,8 @@
 #include "animation/animate.h"
 
+#include <Eigen/Dense>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <Eigen/Dense>
 
 #include "animation/face_export.h"
 #include "geometry/errors.h"
@@ -30,12 +29,15 @@ protected:
         delete average_;
     }
     static ExpressionModel smile(const modeling::ModelOptions& options = {}, const std::string& code = "12") {
-        return modeling::measure_expression(modeling::builtin_catalogue(), code, *average_, source_->neutral, source_->smiling, options);
+        return modeling::measure_expression(modeling::builtin_catalogue(), code, *average_, source_->neutral,
+                                            source_->smiling, options);
     }
     /// Mean distance of the animated lower face to the true smile, in the head frame of the closed form.
-    static double smile_error_mm(const AnimatedFace& animated, const preprocessing::Face& neutral, double scale, double smile_mm) {
+    static double smile_error_mm(const AnimatedFace& animated, const preprocessing::Face& neutral, double scale,
+                                 double smile_mm) {
         const test::AnalyticFace truth{scale, smile_mm};
-        const geometry::Transform scan_from_head = preprocessing::rigid_by_landmarks(test::AnalyticFace{scale}.landmarks(), neutral.landmarks);
+        const geometry::Transform scan_from_head =
+            preprocessing::rigid_by_landmarks(test::AnalyticFace{scale}.landmarks(), neutral.landmarks);
         double sum = 0;
         int count = 0;
         for (std::size_t v = 0; v < animated.grid.size(); ++v) {
