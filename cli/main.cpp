@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
     int exit_code = mimik::cli::exit_done;
     mimik::cli::add_scans_command(app, exit_code);
     mimik::cli::add_animate_command(app, exit_code);
+    mimik::cli::add_catalogue_command(app, exit_code);
     mimik::cli::add_distance_command(app, exit_code);
     mimik::cli::add_evaluate_command(app, exit_code);
     mimik::cli::add_figure_command(app, exit_code);

@@ -15,6 +15,8 @@
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/landmarks.h"
+#include "modeling/control_points.h"
+#include "modeling/reference_face.h"
 
 namespace mimik::modeling {
 
@@ -36,6 +38,9 @@ public:
 
     void error(const toml::node& node, const std::string& what) { add(true, node, what); }
     void warn(const toml::node& node, const std::string& what) { add(false, node, what); }
+    [[nodiscard]] std::ptrdiff_t errors() const {
+        return std::count_if(findings_.begin(), findings_.end(), [](const LintFinding& f) { return f.error; });
+    }
 
     void only_keys(const toml::table& table, std::initializer_list<std::string_view> known) {
         for (const auto& [key, node] : table)
@@ -129,8 +134,39 @@ struct Parsed {
     std::vector<Emotion> emotions;
 };
 
+/// Lays a point on the reference face and says what would go wrong there.
+void check_place(Reader& reader, const toml::table& entry, const CataloguePoint& point,
+                 std::vector<std::pair<std::string, geometry::Point>>& placed) {
+    const auto& marks = reference_landmarks();
+    const geometry::Point p = place(point.placement, marks, database::Side::left);
+    const bool central = point.placement.lateral == 0.0 &&
+                         std::all_of(point.placement.at.begin(), point.placement.at.end(),
+                                     [&](const auto& term) { return marks.find(term.first) != nullptr; });
+    if (!on_reference_face(p))
+        reader.warn(entry, fmt::format("point '{}' lies off the reference face, {:.0f} mm to the left of and {:.0f} mm above the "
+                                        "nose tip; make its offset smaller",
+                                        point.name, p.x(), p.y()));
+    if (central && std::abs(p.x()) > 1.0)
+        reader.error(entry, fmt::format("point '{}' is off the midline but names the side of its landmarks; leave '_left' and "
+                                        "'_right' out, so that it has a mirror image",
+                                        point.name));
+    else if (!central && std::abs(p.x()) < 1.0)
+        reader.error(entry, fmt::format("point '{}' and its mirror image fall together on the midline; write it with midline "
+                                        "landmarks and no lateral offset",
+                                        point.name));
+    else if (p.x() < -1.0)
+        reader.error(entry, fmt::format("point '{}' lies on the subject's right half; write points for the left half, the right "
+                                        "one is their mirror image",
+                                        point.name));
+    for (const auto& [name, other] : placed)
+        if ((other - p).head<2>().norm() < 1.0)
+            reader.warn(entry, fmt::format("points '{}' and '{}' fall together on the reference face; one of them will be left out",
+                                           point.name, name));
+    placed.emplace_back(point.name, p);
+}
+
 ActionUnit read_unit(Reader& reader, const toml::table& table) {
-    reader.only_keys(table, {"number", "name", "region", "sides", "muscles", "wrinkles", "arkit", "zone", "points"});
+    reader.only_keys(table, {"number", "name", "region", "sides", "muscles", "wrinkles", "arkit", "arkit_whole", "zone", "points"});
     ActionUnit unit;
     if (const auto* node = table.get("number"))
         unit.number = static_cast<int>(reader.number(*node, "number"));
@@ -145,6 +181,9 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
     unit.central = sides == "central";
     unit.wrinkles = reader.text(table, "wrinkles", false);
     unit.arkit = reader.text(table, "arkit", false);
+    unit.arkit_whole = reader.text(table, "arkit_whole", false);
+    if (unit.central && !unit.arkit.empty())
+        reader.error(table, fmt::format("AU{} is central and has no halves to name: use arkit_whole in place of arkit", unit.number));
     reader.tables(table, "muscles", true, [&](const toml::table& muscle) {
         reader.only_keys(muscle, {"name", "source"});
         unit.muscles.push_back({reader.text(muscle, "name"), reader.text(muscle, "source")});
@@ -158,6 +197,7 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
         unit.zone.push_back(std::move(zone));
     });
     std::set<std::string> names;
+    std::vector<std::pair<std::string, geometry::Point>> placed;
     bool muscle_point = false;
     reader.tables(table, "points", true, [&](const toml::table& entry) {
         reader.only_keys(entry, {"name", "kind", "at", "offset"});
@@ -168,7 +208,9 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
             reader.error(entry, fmt::format("kind '{}' is neither muscle nor wrinkle", kind));
         point.kind = kind == "wrinkle" ? ControlKind::wrinkle : ControlKind::muscle;
         muscle_point = muscle_point || point.kind == ControlKind::muscle;
+        const auto errors_before = reader.errors();
         point.placement = reader.placement(entry);
+        if (reader.errors() == errors_before) check_place(reader, entry, point, placed);
         if (!names.insert(point.name).second) reader.error(entry, fmt::format("point '{}' stands twice in AU{}", point.name, unit.number));
         unit.points.push_back(std::move(point));
     });
@@ -307,10 +349,11 @@ std::string expression_name(const FacsCatalogue& catalogue, const std::string& e
 
 std::string arkit_name(const FacsCatalogue& catalogue, const std::string& expression) {
     const auto units = catalogue.resolve(expression);
-    if (units.size() == 1 && !units.front().unit->arkit.empty()) {
+    if (units.size() == 1) {
         const auto& [unit, side] = units.front();
-        if (unit->central) return unit->arkit;
-        if (side != database::Side::both) return unit->arkit + (side == database::Side::left ? "Left" : "Right");
+        if (side == database::Side::both && !unit->arkit_whole.empty()) return unit->arkit_whole;
+        if (side != database::Side::both && !unit->arkit.empty())
+            return unit->arkit + (side == database::Side::left ? "Left" : "Right");
     }
     return expression_name(catalogue, expression);
 }

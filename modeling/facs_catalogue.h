@@ -49,7 +49,8 @@ struct ActionUnit {
     bool central = false;  ///< moves both sides at once; cannot be one-sided
     std::vector<Muscle> muscles;
     std::string wrinkles;
-    std::string arkit;  ///< blendshape name without its side; empty: none
+    std::string arkit;        ///< ARKit blendshape of one half, without its "Left" or "Right"; empty: none
+    std::string arkit_whole;  ///< ARKit blendshape of both halves at once; empty: none
     std::vector<ZoneEllipse> zone;
     std::vector<CataloguePoint> points;
 };

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "geometry/file.h"
+#include "modeling/facs_catalogue.h"
+
+namespace mimik::cli {
+namespace {
+
+struct Request {
+    Common common;
+    std::string file;
+    bool lint = false, text = false;
+};
+
+struct PointCounts {
+    std::ptrdiff_t muscle, wrinkle;
+};
+
+PointCounts count_points(const modeling::ActionUnit& unit) {
+    const auto of = [&](modeling::ControlKind kind) {
+        return std::count_if(unit.points.begin(), unit.points.end(),
+                             [&](const auto& point) { return point.kind == kind; });
+    };
+    return {of(modeling::ControlKind::muscle), of(modeling::ControlKind::wrinkle)};
+}
+
+nlohmann::json unit_to_json(const modeling::ActionUnit& unit) {
+    auto muscles = nlohmann::json::array();
+    for (const auto& muscle : unit.muscles) muscles.push_back({{"name", muscle.name}, {"source", muscle.source}});
+    const auto counts = count_points(unit);
+    return {{"number", unit.number},
+            {"name", unit.name},
+            {"region", unit.lower_face ? "lower" : "upper"},
+            {"sides", unit.central ? "central" : "paired"},
+            {"muscles", muscles},
+            {"wrinkles", unit.wrinkles},
+            {"arkit", unit.arkit},
+            {"arkit_whole", unit.arkit_whole},
+            {"muscle_points", counts.muscle},
+            {"wrinkle_points", counts.wrinkle}};
+}
+
+void list_units(const modeling::FacsCatalogue& catalogue, const std::string& name) {
+    std::cout << fmt::format("{}: {} action units; points of one side\n\n", name, catalogue.units().size());
+    std::cout << fmt::format("{:>3}  {:<22} {:<6} {:<8} {:>6} {:>8}  {}\n", "AU", "name", "region", "sides", "muscle",
+                             "wrinkle", "muscles");
+    for (const auto& unit : catalogue.units()) {
+        std::vector<std::string_view> muscles;
+        for (const auto& muscle : unit.muscles) muscles.push_back(muscle.name);
+        const auto counts = count_points(unit);
+        std::cout << fmt::format("{:>3}  {:<22} {:<6} {:<8} {:>6} {:>8}  {}\n", unit.number, unit.name,
+                                 unit.lower_face ? "lower" : "upper", unit.central ? "central" : "paired",
+                                 counts.muscle, counts.wrinkle, fmt::join(muscles, "; "));
+    }
+    if (!catalogue.emotions().empty()) std::cout << '\n';
+    for (const auto& emotion : catalogue.emotions())
+        std::cout << fmt::format("{:<10} {}\n", emotion.name, fmt::join(emotion.action_units, "+"));
+}
+
+int lint(const Request& request, const std::string& text, const std::string& name) {
+    const auto findings = modeling::lint_catalogue(text);
+    const auto errors = std::count_if(findings.begin(), findings.end(), [](const auto& f) { return f.error; });
+    if (request.common.json) {
+        auto list = nlohmann::json::array();
+        for (const auto& finding : findings)
+            list.push_back(
+                {{"severity", finding.error ? "error" : "warning"}, {"line", finding.line}, {"message", finding.what}});
+        std::cout << nlohmann::json{{"schema", 1}, {"file", name}, {"errors", errors}, {"findings", list}}.dump(1)
+                  << '\n';
+    } else {
+        for (const auto& finding : findings)
+            std::cout << fmt::format("{}:{}: {}: {}\n", name, finding.line, finding.error ? "error" : "warning",
+                                     finding.what);
+        std::cout << fmt::format("{}: {} errors, {} warnings\n", name, errors,
+                                 static_cast<std::ptrdiff_t>(findings.size()) - errors);
+    }
+    return errors > 0 ? exit_bad_input : exit_done;
+}
+
+int run(const Request& request) {
+    const bool own = !request.file.empty();
+    const std::string name = own ? request.file : "built-in catalogue";
+    const std::string text =
+        own ? geometry::read_text(request.file, 1 << 22) : std::string(modeling::builtin_catalogue_text());
+    if (request.text) {
+        std::cout << text;
+        return exit_done;
+    }
+    if (request.lint) return lint(request, text, name);
+    const auto catalogue = modeling::parse_catalogue(text, name);
+    if (!request.common.json) {
+        list_units(catalogue, name);
+        return exit_done;
+    }
+    auto units = nlohmann::json::array();
+    for (const auto& unit : catalogue.units()) units.push_back(unit_to_json(unit));
+    auto emotions = nlohmann::json::array();
+    for (const auto& emotion : catalogue.emotions())
+        emotions.push_back({{"name", emotion.name}, {"units", emotion.action_units}});
+    std::cout
+        << nlohmann::json{{"schema", 1}, {"catalogue", name}, {"action_units", units}, {"emotions", emotions}}.dump(1)
+        << '\n';
+    return exit_done;
+}
+
+}  // namespace
+
+void add_catalogue_command(CLI::App& app, int& exit_code) {
+    auto* command =
+        app.add_subcommand("catalogue", "List the action units of the FACS catalogue, or check a catalogue file");
+    const auto request = std::make_shared<Request>();
+    add_common_options(*command, request->common);
+    command->add_option("FILE", request->file, "Catalogue file (TOML); without it, the one that Mimik ships");
+    command->add_flag("--lint", request->lint, "List every fault of the file with its line");
+    command->add_flag("--text", request->text, "Print the file itself: a start for one's own");
+    command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace mimik::cli

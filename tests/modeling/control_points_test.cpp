@@ -1,0 +1,167 @@
+#include "modeling/control_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "modeling/reference_face.h"
+
+namespace mimik::modeling {
+namespace {
+
+using database::Side;
+using geometry::Point;
+using testing::HasSubstr;
+
+/// A bowl over the reference face, large enough that nothing placed on the face misses it: z = -(x^2 + y^2) / 160.
+double depth(double x, double y) { return -(x * x + y * y) / 160.0; }
+
+geometry::SurfaceIndex bowl() {
+    std::vector<Point> vertices;
+    std::vector<geometry::Triangle> triangles;
+    constexpr int half_x = 30, half_y = 40;  // 2.5 mm apart: flat facets stay within 0.04 mm of the bowl
+    for (int row = -half_y; row <= half_y; ++row)
+        for (int col = -half_x; col <= half_x; ++col)
+            vertices.emplace_back(2.5 * col, 2.5 * row, depth(2.5 * col, 2.5 * row));
+    const auto cols = static_cast<std::uint32_t>(2 * half_x + 1);
+    for (std::uint32_t row = 0; row < 2 * half_y; ++row)
+        for (std::uint32_t col = 0; col + 1 < cols; ++col) {
+            const auto a = row * cols + col;
+            triangles.push_back({a, a + 1, a + cols + 1});
+            triangles.push_back({a, a + cols + 1, a + cols});
+        }
+    return {vertices, triangles};
+}
+
+const ControlPoint* find(const std::vector<ControlPoint>& points, const std::string& name) {
+    const auto it = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.name == name; });
+    return it == points.end() ? nullptr : &*it;
+}
+
+TEST(Placement, of_a_landmark_is_that_landmark_on_the_side_asked_for) {
+    const Placement corner{{{"mouth_corner", 1.0}}, 0, 0};
+    EXPECT_EQ(place(corner, reference_landmarks(), Side::left), reference_landmarks().position_mm("mouth_corner_left"));
+    EXPECT_EQ(place(corner, reference_landmarks(), Side::right),
+              reference_landmarks().position_mm("mouth_corner_right"));
+}
+
+TEST(Placement, offsets_are_outer_eye_distances_away_from_the_midline) {
+    const Placement beside{{{"mouth_corner", 1.0}}, 0.1, -0.2};
+    const double unit = 89.0;  // of the reference face: eye corners at -44.5 and 44.5 mm, same height and depth
+    const auto left = place(beside, reference_landmarks(), Side::left),
+               right = place(beside, reference_landmarks(), Side::right);
+    EXPECT_NEAR(left.x(), 25.5 + 0.1 * unit, 1e-9);
+    EXPECT_NEAR(right.x(), -25.5 - 0.1 * unit, 1e-9);
+    EXPECT_NEAR(left.y(), -39 - 0.2 * unit, 1e-9);
+}
+
+TEST(Placement, misses_no_landmark_in_silence) {
+    const geometry::Landmarks few({{"eye_outer_left", {44, 0, 0}, ""}, {"eye_outer_right", {-44, 0, 0}, ""}});
+    try {
+        (void)place({{{"chin", 1.0}}, 0, 0}, few, Side::left);
+        FAIL() << "placed";
+    } catch (const InputError& e) {
+        EXPECT_THAT(e.what(), HasSubstr("chin"));
+    }
+}
+
+TEST(ControlPoints, of_every_unit_lie_on_the_surface_and_apart) {
+    const auto surface = bowl();
+    for (const auto& unit : builtin_catalogue().units()) {
+        const auto placed =
+            place_controls(builtin_catalogue(), std::to_string(unit.number), reference_landmarks(), surface);
+        EXPECT_GE(placed.controls.size(), 12U) << unit.number;
+        std::vector<ControlPoint> all = placed.controls;
+        all.insert(all.end(), placed.anchors.begin(), placed.anchors.end());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const auto& p = all[i].position_mm;
+            EXPECT_NEAR(p.z(), depth(p.x(), p.y()), 0.05) << unit.number << ' ' << all[i].name;  // the facets' sag
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_GT((all[j].position_mm - p).norm(), 0.5) << all[i].name << ' ' << all[j].name;
+        }
+    }
+}
+
+TEST(ControlPoints, are_symmetric_on_a_symmetric_face) {
+    const auto surface = bowl();
+    for (const auto& unit : builtin_catalogue().units()) {
+        const auto placed =
+            place_controls(builtin_catalogue(), std::to_string(unit.number), reference_landmarks(), surface);
+        for (const auto* list : {&placed.controls, &placed.anchors})
+            for (const auto& point : *list) {
+                const Point image(-point.position_mm.x(), point.position_mm.y(), point.position_mm.z());
+                // The facets' diagonals are not symmetric: half a millimetre covers their sag in depth.
+                EXPECT_TRUE(std::any_of(list->begin(), list->end(),
+                                        [&](const auto& other) { return (other.position_mm - image).norm() < 0.5; }))
+                    << "AU" << unit.number << ' ' << point.name;
+            }
+    }
+}
+
+TEST(ControlPoints, of_one_side_stay_on_that_side_and_hold_the_other_still) {
+    const auto placed = place_controls(builtin_catalogue(), "12L", reference_landmarks(), bowl());
+    EXPECT_NE(find(placed.controls, "AU12.mouth_corner_left"), nullptr);
+    EXPECT_EQ(find(placed.controls, "AU12.mouth_corner_right"), nullptr);
+    for (const auto& point : placed.controls)  // the zone of one half may reach a little over the midline
+        EXPECT_GT(point.position_mm.x(), -12.0) << point.name;
+    const auto right_corner = reference_landmarks().position_mm("mouth_corner_right");
+    EXPECT_TRUE(std::any_of(placed.anchors.begin(), placed.anchors.end(), [&](const auto& anchor) {
+        // Anchors stand 0.20 eye distances apart on a triangular lattice: none of its holes is wider than 18 mm.
+        return (anchor.position_mm - right_corner).template head<2>().norm() < 18.0;
+    }));
+}
+
+TEST(ControlPoints, anchors_stand_outside_the_zone_by_the_margin) {
+    const auto placed = place_controls(builtin_catalogue(), "15", reference_landmarks(), bowl());
+    const ExpressionZone zone(builtin_catalogue(), "15", reference_landmarks());
+    EXPECT_GT(placed.anchors.size(), 20U);
+    for (const auto& anchor : placed.anchors)
+        EXPECT_GE(zone.distance(anchor.position_mm), builtin_catalogue().sampling().anchor_margin - 1e-9)
+            << anchor.name;
+}
+
+TEST(ControlPoints, of_the_thesis_number_12_to_26_for_each_of_its_units) {
+    for (const int number : {1, 2, 4, 12, 14, 15, 17, 20}) {
+        const auto placed = place_controls(builtin_catalogue(), std::to_string(number), reference_landmarks(), bowl());
+        const auto anatomical = std::count_if(placed.controls.begin(), placed.controls.end(),
+                                              [](const auto& p) { return p.kind != ControlKind::coverage; });
+        EXPECT_GE(anatomical, 12) << number;
+        EXPECT_LE(anatomical, 26) << number;
+        EXPECT_TRUE(std::any_of(placed.controls.begin(), placed.controls.end(), [](const auto& p) {
+            return p.kind == ControlKind::wrinkle;
+        })) << number;
+    }
+}
+
+TEST(ControlPoints, off_the_surface_are_left_out_by_name) {
+    // A scan that ends at the mouth corners' height: what lies below is not there to be moved.
+    std::vector<Point> vertices;
+    for (const double y : {-35.0, 95.0})
+        for (const double x : {-75.0, 75.0}) vertices.emplace_back(x, y, 0.0);
+    const geometry::SurfaceIndex upper(vertices, std::vector<geometry::Triangle>{{0, 1, 3}, {0, 3, 2}});
+    const auto placed = place_controls(builtin_catalogue(), "15", reference_landmarks(), upper);
+    EXPECT_THAT(placed.left_out, testing::Contains("AU15.triangularis_low_left: off the face"));
+}
+
+TEST(ExpressionZone, holds_the_part_that_moves_and_not_the_rest) {
+    const auto inside = [](const std::string& code, const std::string& mark) {
+        return ExpressionZone(builtin_catalogue(), code, reference_landmarks())
+                   .distance(reference_landmarks().position_mm(mark)) <= 0;
+    };
+    EXPECT_TRUE(inside("12", "mouth_corner_left"));
+    EXPECT_TRUE(inside("12", "mouth_corner_right"));
+    EXPECT_FALSE(inside("12L", "mouth_corner_right"));
+    EXPECT_FALSE(inside("12", "brow_middle_left"));
+    EXPECT_TRUE(inside("1", "brow_inner_left"));
+    EXPECT_FALSE(inside("1", "chin"));
+    EXPECT_TRUE(inside("17", "chin"));
+    EXPECT_FALSE(inside("17", "nose_tip"));
+}
+
+}  // namespace
+}  // namespace mimik::modeling
