@@ -27,7 +27,8 @@ constexpr std::string_view embedded_catalogue =
     ;
 
 std::string upper(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     return text;
 }
 
@@ -89,7 +90,8 @@ public:
         const auto* node = table.get("at");
         const auto* at = node ? node->as_table() : nullptr;
         if (!at || at->empty()) {
-            error(node ? *node : table, "'at' is missing: give landmarks and weights, e.g. at = { mouth_corner = 1.0 }");
+            error(node ? *node : table,
+                  "'at' is missing: give landmarks and weights, e.g. at = { mouth_corner = 1.0 }");
             return place;
         }
         double sum = 0;
@@ -101,7 +103,8 @@ public:
         }
         if (std::abs(sum - 1.0) > 1e-6) error(*at, fmt::format("weights add up to {}, not 1", sum));
         std::tie(place.lateral, place.up) = two(table, "offset", false);
-        if (std::hypot(place.lateral, place.up) > 1.5) error(table, "offset of more than 1.5 outer-eye distances is off the face");
+        if (std::hypot(place.lateral, place.up) > 1.5)
+            error(table, "offset of more than 1.5 outer-eye distances is off the face");
         return place;
     }
     template <typename Visit>
@@ -143,47 +146,59 @@ void check_place(Reader& reader, const toml::table& entry, const CataloguePoint&
                          std::all_of(point.placement.at.begin(), point.placement.at.end(),
                                      [&](const auto& term) { return marks.find(term.first) != nullptr; });
     if (!on_reference_face(p))
-        reader.warn(entry, fmt::format("point '{}' lies off the reference face, {:.0f} mm to the left of and {:.0f} mm above the "
-                                        "nose tip; make its offset smaller",
-                                        point.name, p.x(), p.y()));
+        reader.warn(
+            entry,
+            fmt::format("point '{}' lies off the reference face, {:.0f} mm to the left of and {:.0f} mm above the "
+                        "nose tip; make its offset smaller",
+                        point.name, p.x(), p.y()));
     if (central && std::abs(p.x()) > 1.0)
-        reader.error(entry, fmt::format("point '{}' is off the midline but names the side of its landmarks; leave '_left' and "
-                                        "'_right' out, so that it has a mirror image",
-                                        point.name));
+        reader.error(entry,
+                     fmt::format("point '{}' is off the midline but names the side of its landmarks; leave '_left' and "
+                                 "'_right' out, so that it has a mirror image",
+                                 point.name));
     else if (!central && std::abs(p.x()) < 1.0)
-        reader.error(entry, fmt::format("point '{}' and its mirror image fall together on the midline; write it with midline "
-                                        "landmarks and no lateral offset",
-                                        point.name));
+        reader.error(entry,
+                     fmt::format("point '{}' and its mirror image fall together on the midline; write it with midline "
+                                 "landmarks and no lateral offset",
+                                 point.name));
     else if (p.x() < -1.0)
-        reader.error(entry, fmt::format("point '{}' lies on the subject's right half; write points for the left half, the right "
-                                        "one is their mirror image",
-                                        point.name));
+        reader.error(
+            entry, fmt::format("point '{}' lies on the subject's right half; write points for the left half, the right "
+                               "one is their mirror image",
+                               point.name));
     for (const auto& [name, other] : placed)
         if ((other - p).head<2>().norm() < 1.0)
-            reader.warn(entry, fmt::format("points '{}' and '{}' fall together on the reference face; one of them will be left out",
-                                           point.name, name));
+            reader.warn(
+                entry,
+                fmt::format("points '{}' and '{}' fall together on the reference face; one of them will be left out",
+                            point.name, name));
     placed.emplace_back(point.name, p);
 }
 
 ActionUnit read_unit(Reader& reader, const toml::table& table) {
-    reader.only_keys(table, {"number", "name", "region", "sides", "muscles", "wrinkles", "arkit", "arkit_whole", "zone", "points"});
+    reader.only_keys(
+        table, {"number", "name", "region", "sides", "muscles", "wrinkles", "arkit", "arkit_whole", "zone", "points"});
     ActionUnit unit;
     if (const auto* node = table.get("number"))
         unit.number = static_cast<int>(reader.number(*node, "number"));
     else
         reader.error(table, "'number' is missing");
-    if (unit.number < 1 || unit.number > 99) reader.error(table, fmt::format("AU number {} is not between 1 and 99", unit.number));
+    if (unit.number < 1 || unit.number > 99)
+        reader.error(table, fmt::format("AU number {} is not between 1 and 99", unit.number));
     unit.name = reader.text(table, "name");
     const auto region = reader.text(table, "region"), sides = reader.text(table, "sides");
-    if (region != "upper" && region != "lower") reader.error(table, fmt::format("region '{}' is neither upper nor lower", region));
-    if (sides != "paired" && sides != "central") reader.error(table, fmt::format("sides '{}' is neither paired nor central", sides));
+    if (region != "upper" && region != "lower")
+        reader.error(table, fmt::format("region '{}' is neither upper nor lower", region));
+    if (sides != "paired" && sides != "central")
+        reader.error(table, fmt::format("sides '{}' is neither paired nor central", sides));
     unit.lower_face = region != "upper";
     unit.central = sides == "central";
     unit.wrinkles = reader.text(table, "wrinkles", false);
     unit.arkit = reader.text(table, "arkit", false);
     unit.arkit_whole = reader.text(table, "arkit_whole", false);
     if (unit.central && !unit.arkit.empty())
-        reader.error(table, fmt::format("AU{} is central and has no halves to name: use arkit_whole in place of arkit", unit.number));
+        reader.error(table, fmt::format("AU{} is central and has no halves to name: use arkit_whole in place of arkit",
+                                        unit.number));
     reader.tables(table, "muscles", true, [&](const toml::table& muscle) {
         reader.only_keys(muscle, {"name", "source"});
         unit.muscles.push_back({reader.text(muscle, "name"), reader.text(muscle, "source")});
@@ -211,7 +226,8 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
         const auto errors_before = reader.errors();
         point.placement = reader.placement(entry);
         if (reader.errors() == errors_before) check_place(reader, entry, point, placed);
-        if (!names.insert(point.name).second) reader.error(entry, fmt::format("point '{}' stands twice in AU{}", point.name, unit.number));
+        if (!names.insert(point.name).second)
+            reader.error(entry, fmt::format("point '{}' stands twice in AU{}", point.name, unit.number));
         unit.points.push_back(std::move(point));
     });
     if (!muscle_point) reader.error(table, fmt::format("AU{} has no muscle point", unit.number));
@@ -236,7 +252,8 @@ Parsed read(const std::string& text, std::vector<LintFinding>& findings) {
         const auto take = [&](const char* key, double& value, double low, double high) {
             if (const auto* node = sampling->get(key)) {
                 value = reader.number(*node, key);
-                if (!(value >= low && value <= high)) reader.error(*node, fmt::format("{} is {}, not between {} and {}", key, value, low, high));
+                if (!(value >= low && value <= high))
+                    reader.error(*node, fmt::format("{} is {}, not between {} and {}", key, value, low, high));
             }
         };
         take("coverage_spacing", parsed.sampling.coverage_spacing, 0.03, 1.0);
@@ -262,7 +279,8 @@ Parsed read(const std::string& text, std::vector<LintFinding>& findings) {
         if (emotion.action_units.empty()) reader.error(table, "'units' names no AU");
         parsed.emotions.push_back(std::move(emotion));
     });
-    std::stable_sort(findings.begin(), findings.end(), [](const LintFinding& a, const LintFinding& b) { return a.line < b.line; });
+    std::stable_sort(findings.begin(), findings.end(),
+                     [](const LintFinding& a, const LintFinding& b) { return a.line < b.line; });
     return parsed;
 }
 
@@ -270,10 +288,14 @@ Parsed read(const std::string& text, std::vector<LintFinding>& findings) {
 
 std::string_view to_string(ControlKind kind) {
     switch (kind) {
-        case ControlKind::muscle: return "muscle";
-        case ControlKind::wrinkle: return "wrinkle";
-        case ControlKind::coverage: return "coverage";
-        case ControlKind::anchor: return "anchor";
+        case ControlKind::muscle:
+            return "muscle";
+        case ControlKind::wrinkle:
+            return "wrinkle";
+        case ControlKind::coverage:
+            return "coverage";
+        case ControlKind::anchor:
+            return "anchor";
     }
     return "muscle";
 }
@@ -288,7 +310,8 @@ FacsCatalogue::FacsCatalogue(Sampling sampling, std::vector<ActionUnit> units, s
     : sampling_(sampling), units_(std::move(units)), emotions_(std::move(emotions)) {}
 
 const ActionUnit* FacsCatalogue::find(int number) const {
-    const auto it = std::find_if(units_.begin(), units_.end(), [&](const ActionUnit& unit) { return unit.number == number; });
+    const auto it =
+        std::find_if(units_.begin(), units_.end(), [&](const ActionUnit& unit) { return unit.number == number; });
     return it == units_.end() ? nullptr : &*it;
 }
 
@@ -319,19 +342,19 @@ std::vector<SidedUnit> FacsCatalogue::resolve(const std::string& expression) con
         if (!sided.unit) {
             std::vector<int> numbers;
             for (const auto& unit : units_) numbers.push_back(unit.number);
-            throw InputError(fmt::format("expression '{}': AU{} is not in the catalogue; there are: {}", expression, number,
-                                         fmt::join(numbers, ", ")));
+            throw InputError(fmt::format("expression '{}': AU{} is not in the catalogue; there are: {}", expression,
+                                         number, fmt::join(numbers, ", ")));
         }
         if (sided.unit->central && sided.side != database::Side::both)
-            throw InputError(fmt::format("expression '{}': AU{} ({}) moves both sides at once; leave the side out", expression,
-                                         number, sided.unit->name));
+            throw InputError(fmt::format("expression '{}': AU{} ({}) moves both sides at once; leave the side out",
+                                         expression, number, sided.unit->name));
         units.push_back(sided);
     }
     if (units.empty() || at < code.size()) {
         std::vector<std::string> emotions;
         for (const auto& emotion : emotions_) emotions.push_back(emotion.name);
-        throw InputError(fmt::format("expression '{}' is neither an AU (12, 4L, A12A15) nor an emotion ({})", expression,
-                                     fmt::join(emotions, ", ")));
+        throw InputError(fmt::format("expression '{}' is neither an AU (12, 4L, A12A15) nor an emotion ({})",
+                                     expression, fmt::join(emotions, ", ")));
     }
     return units;
 }
@@ -377,7 +400,8 @@ FacsCatalogue parse_catalogue(const std::string& text, const std::string& name) 
     std::string errors;
     int count = 0;
     for (const auto& finding : findings)
-        if (finding.error && ++count <= 5) errors += fmt::format("{}{}:{}: {}", errors.empty() ? "" : "; ", name, finding.line, finding.what);
+        if (finding.error && ++count <= 5)
+            errors += fmt::format("{}{}:{}: {}", errors.empty() ? "" : "; ", name, finding.line, finding.what);
     if (count > 5) errors += fmt::format("; and {} more ('mimik catalogue FILE --lint' lists all)", count - 5);
     if (count > 0) throw InputError(errors);
     return {parsed.sampling, std::move(parsed.units), std::move(parsed.emotions)};
@@ -396,9 +420,11 @@ Selection parse_selection(const std::string& text) {
         const char* end = text.data() + text.size();
         const auto [stop, fault] = std::from_chars(begin, end, selection.magnitude);
         if (fault != std::errc{} || stop != end || !std::isfinite(selection.magnitude) || selection.magnitude < 0)
-            throw InputError(fmt::format("'{}': the magnitude after ':' is not a number of 0 or more, such as 12:0.5", text));
+            throw InputError(
+                fmt::format("'{}': the magnitude after ':' is not a number of 0 or more, such as 12:0.5", text));
     }
-    if (selection.code.empty()) throw InputError(fmt::format("'{}' names no AU or emotion; give for example 12 or 4L:0.5", text));
+    if (selection.code.empty())
+        throw InputError(fmt::format("'{}' names no AU or emotion; give for example 12 or 4L:0.5", text));
     return selection;
 }
 

@@ -64,8 +64,8 @@ struct Sampling {
 };
 
 struct Emotion {
-    std::string name;                ///< "HAPPY"
-    std::vector<int> action_units;   ///< of the prototype
+    std::string name;               ///< "HAPPY"
+    std::vector<int> action_units;  ///< of the prototype
 };
 
 /// One AU on one side or both: what an expression is made of.
@@ -82,7 +82,8 @@ public:
     [[nodiscard]] const std::vector<ActionUnit>& units() const { return units_; }
     [[nodiscard]] const std::vector<Emotion>& emotions() const { return emotions_; }
     [[nodiscard]] const ActionUnit* find(int number) const;
-    /// "12", "4L", "12LW" (low intensity), "A12A15", "HAPPY" -> AUs and sides. @throws InputError listing what there is.
+    /// "12", "4L", "12LW" (low intensity), "A12A15", "HAPPY" -> AUs and sides. @throws InputError listing what there
+    /// is.
     [[nodiscard]] std::vector<SidedUnit> resolve(const std::string& expression) const;
 
 private:
@@ -91,8 +92,8 @@ private:
     std::vector<Emotion> emotions_;
 };
 
-/// The ARKit blendshape of a code: "12L" -> "mouthSmileLeft", "17" -> "mouthShrugLower"; without one, or for both sides of a
-/// paired AU (ARKit has none for both), Mimik's own name: "AU12".
+/// The ARKit blendshape of a code: "12L" -> "mouthSmileLeft", "17" -> "mouthShrugLower"; without one, or for both sides
+/// of a paired AU (ARKit has none for both), Mimik's own name: "AU12".
 [[nodiscard]] std::string arkit_name(const FacsCatalogue& catalogue, const std::string& expression);
 /// Mimik's own name of an expression: "12" -> "AU12", "4L" -> "AU4_L", "happy" -> "HAPPY", "A12A15" -> "AU12+AU15".
 [[nodiscard]] std::string expression_name(const FacsCatalogue& catalogue, const std::string& expression);
@@ -107,8 +108,8 @@ struct LintFinding {
     unsigned line = 0;
     std::string what;
 };
-/// Every fault of a catalogue: unknown keys and landmarks, weights that do not add up to 1, missing fields, AUs without a
-/// muscle point or zone, names used twice, points that fall together or off the reference face, lists out of range.
+/// Every fault of a catalogue: unknown keys and landmarks, weights that do not add up to 1, missing fields, AUs without
+/// a muscle point or zone, names used twice, points that fall together or off the reference face, lists out of range.
 [[nodiscard]] std::vector<LintFinding> lint_catalogue(const std::string& text);
 /// @throws InputError with the first errors, each with file and line.
 [[nodiscard]] FacsCatalogue read_catalogue(const std::filesystem::path& file);
