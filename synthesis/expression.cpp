@@ -130,11 +130,11 @@ Expression make_expression(std::string_view text) {
         if (code != emotion.code) continue;
         expression.group = "E";
         expression.action_units = emotion.strengths;
-        for (const auto& [number, strength] : emotion.strengths) {
+        for (const auto& entry : emotion.strengths) {
             const auto unit = std::find_if(action_units().begin(), action_units().end(),
-                                           [&](const auto& u) { return u.number == number; });
+                                           [&](const auto& u) { return u.number == entry.first; });
             for (const auto& part : unit->main_shapes)
-                add(expression.main_shapes, part, strength, database::Side::both);
+                add(expression.main_shapes, part, entry.second, database::Side::both);
         }
         // Two shapes beyond the prototype, as with single action units.
         const auto unit = std::find_if(action_units().begin(), action_units().end(), [&](const auto& u) {

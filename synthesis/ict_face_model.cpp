@@ -288,7 +288,7 @@ private:
                 regions_[i] = "lip";
             } else if (inside_polygon(p, lids[0]) || inside_polygon(p, lids[1]) ||
                        distance_to_line(p, lids[0], true) < 1.5 || distance_to_line(p, lids[1], true) < 1.5) {
-                regions_[i] = "eye";
+                regions_[i] = "lid";
             } else if (distance_to_line(p, brows[0], false) < 4.5 || distance_to_line(p, brows[1], false) < 4.5) {
                 regions_[i] = "brow";
             } else if (std::abs(from_nose.x()) > 2.5 && std::abs(from_nose.x()) < 14.0 && from_nose.y() < -4.0 &&

@@ -78,7 +78,7 @@ geometry::Image photograph(const FaceModel& model, const Subject& subject, const
         if (regions[i] == "lip") colour = palette.lip + Colour(3, 2, 2) * blotch[1];
         if (regions[i] == "brow") hairiness[i] = 0.8;
         if (regions[i] == "nostril") colour *= 0.45;
-        if (regions[i] == "eye") colour = mix(colour, palette.hair, 0.18);
+        if (regions[i] == "lid") colour = mix(colour, palette.hair, 0.18);
         if (resting.y() > brow_height - 5.0)
             hairiness[i] = std::max(hairiness[i], smooth_step(0.97, 1.08, window.level(resting) + 0.02 * blotch[0]));
         colours[i] = colour;
@@ -111,7 +111,12 @@ geometry::Image photograph(const FaceModel& model, const Subject& subject, const
             const auto eye = std::find_if(eyes.begin(), eyes.end(), [&](const Point& e) {
                 return std::abs(x - e.x()) < 19.0 && std::abs(y - e.y()) < 13.0;
             });
-            const bool skin = hit.hit() && hit.front && (eye == eyes.end() || hit.z_mm > eye->z() - 9.0);
+            double eyeball = 0;
+            for (int c = 0; hit.hit() && c < 3; ++c)
+                if (regions[triangles[hit.triangle][static_cast<std::size_t>(c)]] == "eye")
+                    eyeball += hit.barycentric[c];
+            const bool skin =
+                hit.hit() && hit.front && (eye == eyes.end() || (hit.z_mm > eye->z() - 9.0 && eyeball < 0.5));
             if (skin) {
                 const auto& corners = triangles[hit.triangle];
                 Colour albedo = Colour::Zero();
@@ -136,8 +141,10 @@ geometry::Image photograph(const FaceModel& model, const Subject& subject, const
             } else if (hit.hit()) {
                 colour = {48, 18, 18};  // inside the mouth
             }
+            const std::size_t pixel = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                                           static_cast<std::size_t>(col));
             for (int c = 0; c < 3; ++c)
-                image.rgb[static_cast<std::size_t>(3 * (row * image.width + col) + c)] =
+                image.rgb[pixel + static_cast<std::size_t>(c)] =
                     static_cast<std::uint8_t>(std::clamp(colour[c] + 0.5, 0.0, 255.0));
         }
     return image;

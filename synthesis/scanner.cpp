@@ -47,7 +47,7 @@ double marking_error_mm(const std::string& landmark) {
 }
 
 double lost_share(const std::string& region, const ScannerOptions& options) {
-    if (region == "eye") return options.eye_hole_share;
+    if (region == "eye" || region == "lid") return options.eye_hole_share;
     if (region == "nostril") return options.nostril_hole_share;
     if (region == "brow") return options.brow_hole_share;
     return 0.0;
@@ -105,8 +105,8 @@ geometry::Landmarks mark(const geometry::RangeScan& scan, const geometry::Landma
     constexpr double invisible_mm = 6.0;
     std::vector<geometry::Landmark> marks;
     for (const auto& landmark : truth.all()) {
-        RandomStream random(seed, scan_name + "/mark/" + landmark.name);
-        const Vector normal = normals.at(landmark.name);
+        RandomStream random(seed, fmt::format("{}/mark/{}", scan_name, landmark.name));
+        const Vector& normal = normals.at(landmark.name);
         const Vector across = normal.unitOrthogonal(), along = normal.cross(across);
         const double each = scale * marking_error_mm(landmark.name) / std::numbers::sqrt2;
         const double a = each * random.normal(), b = each * random.normal();
@@ -228,7 +228,8 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
         const Vector drawn(noise.normal(), noise.normal(), noise.normal());
         if (!hit.hit() || !hit.front) continue;
         const double col = static_cast<double>(i % static_cast<std::size_t>(lattice.cols));
-        const double row = static_cast<double>(i / static_cast<std::size_t>(lattice.cols));
+        const std::size_t lowest_first = i / static_cast<std::size_t>(lattice.cols);
+        const auto row = static_cast<double>(lowest_first);
         const Point seen(lattice.x0_mm + col * lattice.spacing_mm, lattice.y0_mm + row * lattice.spacing_mm, hit.z_mm);
         if (window.level(head_from_scanner * seen) > 1.0 + 0.015 * border.at(seen)[0]) continue;
         const auto& corners = triangles[hit.triangle];

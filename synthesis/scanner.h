@@ -22,7 +22,7 @@ struct ScannerOptions {
     double yaw_deg = 3.0;                ///< of the turn
     double roll_deg = 1.5;               ///< of the tilt
     double translation_mm = 6.0;         ///< of each coordinate of where the head is
-    double eye_hole_share = 0.6;         ///< share of lids and lashes that is lost, in patches
+    double eye_hole_share = 0.6;         ///< share of eyes and lids that is lost, in patches
     double nostril_hole_share = 0.8;     ///< share of the nostrils' rim
     double brow_hole_share = 0.2;        ///< share of the brows (dark hair)
     int spikes = 0;                      ///< outliers of 5 to 40 mm per scan

@@ -105,7 +105,7 @@ Performance perform(const Subject& subject, const Expression& expression, const 
     for (const auto& part : expression.main_shapes) {
         if (!std::binary_search(subject.shapes.begin(), subject.shapes.end(), part.shape))
             throw InputError(fmt::format("{}: the face model has no shape '{}'", scan_name, part.shape));
-        RandomStream random(seed, scan_name + "/shape/" + part.shape);
+        RandomStream random(seed, fmt::format("{}/shape/{}", scan_name, part.shape));
         result.weights[part.shape] +=
             part.weight * result.amplitude * side_factor(part.shape) * random.log_normal(options.shape);
     }
@@ -114,7 +114,7 @@ Performance perform(const Subject& subject, const Expression& expression, const 
         // Both sides of a co-activated shape are driven together; the asymmetry makes the difference.
         std::string stem = part.shape;
         if (stem.ends_with("_L") || stem.ends_with("_R")) stem.resize(stem.size() - 2);
-        RandomStream random(seed, scan_name + "/co/" + stem);
+        RandomStream random(seed, fmt::format("{}/co/{}", scan_name, stem));
         const double drawn =
             options.co_activation * part.weight + options.co_activation_spread * part.deviation * random.normal();
         result.weights[part.shape] += std::max(0.0, drawn) * result.amplitude * side_factor(part.shape);
@@ -136,7 +136,7 @@ Performance perform(const Subject& subject, const Expression& expression, const 
 
     if (options.micro_expression > 0) {
         for (std::size_t s = 0; s < subject.shapes.size(); ++s) {
-            RandomStream random(seed, scan_name + "/micro/" + subject.shapes[s]);
+            RandomStream random(seed, fmt::format("{}/micro/{}", scan_name, subject.shapes[s]));
             const double weight = options.micro_expression * random.normal();
             for (std::size_t i = 0; i < vertices; ++i)
                 result.displacement_mm[i] += weight * subject.shape_displacements_mm[s][i];

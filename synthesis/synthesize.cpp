@@ -31,6 +31,7 @@ struct Task {
 std::vector<Task> plan_scans(const FaceModel& model, const SynthesizeOptions& options,
                              std::vector<std::string>& skipped) {
     std::vector<Task> tasks;
+    tasks.reserve(static_cast<std::size_t>(options.neutrals));
     for (int k = 0; k < options.neutrals; ++k) tasks.push_back({make_expression("N"), k});
     for (const auto& expression : make_expressions(options.expressions)) {
         const auto missing = missing_shapes(expression, model);

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 json read_json(const fs::path& file) {
-    const auto document = json::parse(geometry::read_text(file), nullptr, false);
+    auto document = json::parse(geometry::read_text(file), nullptr, false);
     if (document.is_discarded())
         throw InputError(fmt::format("{}: not valid JSON; synthesize the database again", file.string()));
     if (const auto schema = document.value("schema", 0); schema != 1)

@@ -34,7 +34,7 @@ TEST(IctFaceModel, mean_face_has_adult_measures_and_all_landmarks_on_their_side)
         if (name.ends_with("_left")) {
             EXPECT_GT(face[vertex].x(), 0.0) << name;
         }
-    for (const auto& region : {"lip", "brow", "eye", "nostril"})
+    for (const auto& region : {"lip", "brow", "lid", "nostril"})
         EXPECT_THAT(model->vertex_regions(), testing::Contains(region));
 }
 
