@@ -22,6 +22,11 @@ namespace mimik::synthesis {
 /// 1 at 0 falling to 0 at |x| = reach with zero slope at both ends: a bell of compact support.
 [[nodiscard]] inline double hump(double x, double reach) { return 1 - smooth_step(0, reach, std::abs(x)); }
 
+/// As hump, but 1 up to |x| = `core`: what lies within moves as one.
+[[nodiscard]] inline double plateau(double x, double core, double reach) {
+    return 1 - smooth_step(core, reach, std::abs(x));
+}
+
 /// The greater of a and b, rounded off over a depth of about `blend` where they cross (polynomial smooth maximum).
 [[nodiscard]] inline double smooth_max(double a, double b, double blend) {
     const double h = std::abs(a - b) >= blend ? 0 : (blend - std::abs(a - b)) / blend;

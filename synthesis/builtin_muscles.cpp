@@ -16,6 +16,21 @@ using geometry::Vector;
 /// How much of a pull follows the skin: the rest of its component along the normal stays as at the insertion.
 constexpr double slide_over_bone = 0.8;
 
+/// The line with its corners cut (Chaikin), so that a furrow bends like skin.
+std::vector<Place> rounded(std::vector<Place> line) {
+    for (int round = 0; round < 3 && line.size() > 2; ++round) {
+        std::vector<Place> cut = {line.front()};
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            const auto &a = line[i], &b = line[i + 1];
+            if (i > 0) cut.push_back({0.75 * a.s + 0.25 * b.s, 0.75 * a.t + 0.25 * b.t});
+            if (i + 2 < line.size()) cut.push_back({0.25 * a.s + 0.75 * b.s, 0.25 * a.t + 0.75 * b.t});
+        }
+        cut.push_back(line.back());
+        line = std::move(cut);
+    }
+    return line;
+}
+
 /// Distance from p to a line of places, and how far along it (0..1) the nearest point is.
 std::pair<double, double> to_line(const std::vector<Place>& line, double s, double t) {
     double best = std::numeric_limits<double>::max(), along = 0, total = 0, at = 0;
@@ -92,11 +107,12 @@ void MuscleModel::heap(const Motion& motion, double side, std::vector<Vector>& m
             low_t = std::min(low_t, q.t), high_t = std::max(high_t, q.t);
         }
         const double margin = 6 * f.width_mm;
+        const auto line = rounded(f.line);
         for (std::size_t i = 0; i < moved.size(); ++i) {
             const auto& p = sheet_.vertices[i];
             const double s = side * p.s;
             if (s < low_s - margin || s > high_s + margin || p.t < low_t - margin || p.t > high_t + margin) continue;
-            const auto [distance, along] = to_line(f.line, s, p.t);
+            const auto [distance, along] = to_line(line, s, p.t);
             const double taper = smooth_step(0, 0.3, along) * smooth_step(1, 0.7, along);
             const double shape = -bell(distance, f.width_mm) + 0.45 * bell(distance - 2.4 * f.width_mm, f.width_mm);
             moved[i] += f.depth_mm * taper * shape * lip_share(i, f.lip) * normals_[i];
@@ -131,7 +147,7 @@ void MuscleModel::move_lids(const Sphincter& lids, std::span<const Point> neutra
         const double taper = std::sqrt(std::max(0.0, 1 - q * q));
         const auto thickness = [&](double v) {  // of the lids over the eyeball, as the neutral surface has it
             return (0.35 + 1.25 * taper) * smooth_step(upper_lid - 0.2, upper_lid + 0.9, v) * smooth_step(8, 3, v) +
-                   (0.35 + 0.95 * taper) * smooth_step(lower_lid + 0.2, lower_lid - 0.9, v) * smooth_step(-21, -15, v);
+                   (0.35 + 0.75 * taper) * smooth_step(lower_lid + 0.2, lower_lid - 0.9, v) * smooth_step(-21, -15, v);
         };
         for (const auto i : column) {
             const double v = sheet_.vertices[i].v;
@@ -153,8 +169,9 @@ void MuscleModel::move_lids(const Sphincter& lids, std::span<const Point> neutra
             const double a = neutral_mm[column[k]].y(), b = neutral_mm[column[k + 1]].y();
             const double f = std::clamp((a - y) / std::max(1e-9, a - b), 0.0, 1.0);
             const double z = under(k) + f * (under(k + 1) - under(k)) + thickness(v);
-            const double shared = std::min(1.0, std::max(share, low_share) * 1.0);
-            moved[i] += Vector(0, dy, shared * (z - neutral_mm[i].z()));
+            const double shared = std::max(share, low_share) * smooth_step(1.15, 0.7, std::abs(q));
+            // A lid that is lifted slips back into the orbit instead of climbing its edge.
+            moved[i] += Vector(0, dy, dy > 0 && v > upper_lid - 3 ? -0.33 * dy : shared * (z - neutral_mm[i].z()));
         }
     }
 }
@@ -190,7 +207,9 @@ void MuscleModel::open_jaw(double angle, std::span<const Point> neutral_mm, std:
     using namespace place;
     // The joints lie just before the ears, under the skin.
     const Point ear = neutral_mm[sheet_.nearest(98, -24)];
-    const Eigen::Vector2d axis(ear.y(), ear.z() - 8);
+    const Eigen::Vector2d axis(ear.y(), ear.z() - 13);
+    // An opening jaw also glides forward and down in its joints, about 6 and 4 mm when wide open.
+    constexpr double glide_forward = 17, glide_down = 11;
     const double c = std::cos(angle), s = std::sin(angle);
     for (std::size_t i = 0; i < moved.size(); ++i) {
         const auto& p = sheet_.vertices[i];
@@ -206,7 +225,7 @@ void MuscleModel::open_jaw(double angle, std::span<const Point> neutral_mm, std:
             w *= smooth_step(-148, gnathion + 2, p.v);
         }
         const double y = neutral_mm[i].y() - axis.x(), z = neutral_mm[i].z() - axis.y();
-        const Vector turned(0, c * y - s * z - y, s * y + c * z - z);
+        const Vector turned(0, c * y - s * z - y - glide_down * angle, s * y + c * z - z + glide_forward * angle);
         moved[i] += w * turned;
     }
 }

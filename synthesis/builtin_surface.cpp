@@ -50,28 +50,26 @@ private:
 
 /// Half-width of the nose and how boxy its cross-section is, by height.
 struct NoseSection {
-    double half_width, exponent, shoulder;
+    double half_width, shoulder;
 };
 NoseSection nose_section(double t) {
     static const MonotoneCurve width({-60, -55.3, -53, -50.5, -48.5, -46, -43, -34, -20, -9, 0, 8, 16},
-                                     {24, 15, 8.5, 8, 10.5, 13.5, 15.5, 17, 17, 16.5, 16, 16, 17});
-    static const MonotoneCurve shoulder({-50, -43, -34, -24, 0, 10, 26, 90}, {1.5, 1.25, 1.4, 2.0, 2.0, 1.9, 2, 2});
-    return {width(t), 2, shoulder(t)};
+                                     {24, 15, 8.5, 8.5, 11.5, 15, 17.3, 19.3, 22, 21.5, 20, 20, 21});
+    static const MonotoneCurve shoulder({-50, -43, -37, -30, -22, 0, 10, 26, 90},
+                                        {1.5, 1.4, 1.7, 2.6, 3.3, 3.5, 3, 2, 2});
+    return {width(t), shoulder(t)};
 }
 
-double compact(double q, double exponent, double shoulder) {
-    const double a = std::abs(q);
-    return a >= 1 ? 0 : std::pow(1 - std::pow(a, exponent), shoulder);
-}
+double compact(double q, double shoulder) { return q * q >= 1 ? 0 : std::pow(1 - q * q, shoulder); }
 
 /// How far a midline height reaches sideways on the lower face: muzzle, lips, sulcus, chin.
 double lower_section(double s, double v, double chin_reach) {
     using namespace place;
     const double a = std::abs(s);
-    const double muzzle = compact(a / 27, 2, 1.5);
-    const double lips = compact(a / (mouth_corner + 1.5), 2, 0.95);
-    const double sulcus_part = compact(a / 26, 2, 1.5);
-    const double chin = compact(a / chin_reach, 2, 1.6);
+    const double muzzle = compact(a / 27, 1.5);
+    const double lips = compact(a / (mouth_corner + 0.4), 0.95);
+    const double sulcus_part = compact(a / 26, 1.5);
+    const double chin = compact(a / chin_reach, 1.6);
     if (v > upper_lip) return muzzle + (lips - muzzle) * smooth_step(upper_lip + 6, upper_lip, v);
     if (v > lower_lip) return lips;
     if (v > sulcus) return lips + (sulcus_part - lips) * smooth_step(lower_lip, sulcus + 2, v);
@@ -86,6 +84,7 @@ public:
           face_(face),
           profile_(solve_profile(face)),
           y_(heights()),
+          y_side_(side_heights()),
           midline_(midline()),
           base_shift_(shift()) {
         using M = Measurement;
@@ -99,7 +98,7 @@ public:
                    MonotoneCurve({0, place::wing, 45, 67, 72}, {0, al, 45 * zy / 67.5, zy - 0.5, ear}),
                    MonotoneCurve({0, place::philtrum_crest, place::mouth_corner, 57, 70},
                                  {0, cph, ch, 0.4 * zy * 57 / 67.5 + 0.6 * go * 57 / 51, ear * 70 / 73}),
-                   MonotoneCurve({0, 20, 51, 68}, {0, chin, go, ear * 68 / 73})};
+                   MonotoneCurve({0, 20, 51, 64}, {0, chin, go, ear * 64 / 73})};
         for (std::size_t r = 0; r < sheet.row_t.size(); ++r)
             row_height_.push_back(midline_at(sheet.row_v[r], sheet.row_t[r]) -
                                   bare_z(0, sheet.row_t[r], sheet.row_midline_base_z_mm[r]));
@@ -115,6 +114,8 @@ public:
         const double a = std::abs(p.s);
         const double x = person_x(std::abs(p.base.x()), p.base.y());
         double y = y_(p.base.y());
+        // The lengths of lips and nose stay near the midline; the sides share the height of the whole face.
+        y += smooth_step(25, 52, a) * (y_side_(p.base.y()) - y);
         y += face_[Form::jaw_angle_height] * 2.0 * bell(a - 80, 22) * bell(p.t + 112, 22);
         double z = bare_z(a, p.t, p.base.z());
         z = with_cheeks(a, p.t, z);
@@ -135,6 +136,14 @@ private:
                  f.upper_lip.x(), f.subnasale.x(), f.pronasale.x(),
                  eye + (f.pronasale.x() - eye) * (20 + eye) / (eye - pronasale), eye, nasion, 12 + brow,
                  45 + brow + 0.4 * (top_y - top), top_y}};
+    }
+
+    [[nodiscard]] MonotoneCurve side_heights() const {
+        using namespace place;
+        const double chin = profile_.gnathion.x(), brow = 1.6 * face_[Form::brow_height],
+                     top_y = top + 4.5 * face_[Form::forehead_height];
+        return {{bottom, gnathion, eye, nasion, 12, 45, top},
+                {chin - 26, chin, eye, nasion, 12 + brow, 45 + brow + 0.4 * (top_y - top), top_y}};
     }
 
     [[nodiscard]] std::pair<Table, Table> midline() const {
@@ -190,8 +199,8 @@ private:
     }
 
     [[nodiscard]] double bare_z(double a, double t, double z) const {
-        const double depth = (face_[Measurement::upper_face_depth] - 122) / 122;
-        return z * (1 + 1.15 * depth * smooth_step(-10, -70, z)) + base_shift_(t) * hump(a, 95);
+        const double depth = (face_[Measurement::upper_face_depth] - 126) / 126;
+        return z * (1 + 1.15 * depth * smooth_step(-10, -70, z)) + base_shift_(t) * hump(a, 75);
     }
 
     [[nodiscard]] double person_x(double x, double y) const {
@@ -229,27 +238,27 @@ private:
         using namespace place;
         if (v <= -58) return z + row_height_[row] * lower_section(a, v, 25 + 2.5 * face_[Form::chin_width]);
         const double height = nose_height_(-t);
-        const auto [half_width, exponent, shoulder] = nose_section(t);
+        const auto [half_width, shoulder] = nose_section(t);
         const double tip = 1 + 0.09 * face_[Form::nose_tip_width] * bell(t + 43, 8);
         double reach = half_width * tip;
         if (t > 4) reach += (60 - reach) * smooth_step(4, 26, t);  // from the root out over the whole forehead
-        double ridge = z + height * compact(a / reach, exponent, shoulder);
+        double ridge = z + height * compact(a / reach, shoulder);
         if (v < -55.3) {
             const double w = smooth_step(-55.3, -58, v);
             ridge += w * (z + row_height_[row] * lower_section(a, v, 25) - ridge);
         }
         // The wing: an ellipsoid beside the tip, cut off steeply where it meets the cheek.
         const double wing_t = -45.8 + 0.7 * face_[Form::wing_height];
-        const double q = std::hypot((a - 11.4) / 6.1, (t - wing_t) / (t > wing_t ? 7.2 : 5.6));
+        const double q = std::hypot((a - 11.2) / 6.3, (t - wing_t) / (t > wing_t ? 7.2 : 5.6));
         if (q < 1) {
-            const double wing_z = z - 2.5 + 13.5 * std::pow(1 - q * q, 0.6);
-            ridge = smooth_max(ridge, wing_z, 4.0);
+            const double wing_z = z - 2.5 + 12.8 * std::pow(1 - q * q, 0.6);
+            ridge = smooth_max(ridge, wing_z, 5.0);
         }
         // Alar crease, and the nostril.
         const double crease = std::hypot((a - 11.4) / 7.3, (t - wing_t) / (t > wing_t ? 8.6 : 6.6));
-        ridge -=
-            0.9 * bell(crease - 1, 0.13) * smooth_step(11, 16, a) * smooth_step(-54, -50, t) * smooth_step(-37, -43, t);
-        const double hole = std::hypot((a - 6.9) / 3.0, (t + 52.0) / 1.7);
+        ridge -= 0.65 * bell(crease - 1, 0.14) * smooth_step(11, 16, a) * smooth_step(-54, -50, t) *
+                 smooth_step(-37, -43, t);
+        const double hole = std::hypot((a - 6.9) / 3.2, (t + 51.7) / 1.9);
         ridge -= 5.0 * (1 - smooth_step(0.35, 1.25, hole));
         return ridge;
     }
@@ -265,7 +274,7 @@ private:
         // White roll along the border of the red, and the pit and the muscle knot at the corner.
         const double mouth = 1 - smooth_step(12, mouth_corner + 1, a);
         z += 0.3 * mouth * (1 - bell(a, 2)) * (bell(v - upper_lip - 0.6, 0.8) + 0.6 * bell(v - lower_lip + 0.6, 0.9));
-        z -= 1.5 * bell(a - mouth_corner, 2.4) * bell(v - stomion, 5);
+        z -= 1.3 * bell(a - mouth_corner, 2.2) * bell(t - stomion + 0.7, 2.6);
         z += 0.9 * bell(a - 31, 4.5) * bell(t + 78, 7);
         return z;
     }
@@ -277,20 +286,22 @@ private:
         const double inside = hump(above_middle, 17) * hump(q, 1.7);
         const double margin = above_middle > 0 ? smooth_step(0, upper_lid - eye, above_middle)
                                                : -0.35 * smooth_step(0, eye - lower_lid, -above_middle);
-        y += 0.55 * face_[Form::lid_opening] * inside * margin * std::max(0.0, 1 - q * q * 0.55);
-        y += 0.9 * face_[Form::eye_tilt] * smooth_step(-1, 1.2, q) * hump(q - 0.8, 1.5) * hump(above_middle, 22);
+        y += 0.55 * face_[Form::lid_opening] * inside * margin * std::max(0.0, 1 - q * q);
+        y +=
+            0.9 * face_[Form::eye_tilt] * smooth_step(-1, 1.2, q) * hump(q - 0.8, 1.5) * plateau(above_middle, 4.5, 22);
         // Mouth corners.
-        y += 0.8 * face_[Form::mouth_corner_tilt] * bell(a - mouth_corner, 6) * hump(v - stomion, 16);
+        y += 0.8 * face_[Form::mouth_corner_tilt] * bell(a - mouth_corner, 6) * plateau(v - stomion, 9, 20);
         if (std::abs(q) > 1.6 || v > 16 || v < -27) return;
         const double deep = 0.9 * face_[Form::eye_depth];
         const double dy = p.t - eye - 0.8 * q;
-        const double r2 = q * q * 0.84 + (dy / 13.2) * (dy / 13.2);
-        double ball = -22.1 - deep + 12.4 * std::sqrt(std::max(0.03, 1 - r2)) - 2.9 * q;
+        const double tall = dy > 0 ? 13.2 : 16.5;  // the lower lid runs out into the cheek more gently
+        const double r2 = q * q * 0.84 + (dy / tall) * (dy / tall);
+        double ball = -22.8 - deep + 12.4 * std::sqrt(std::max(0.03, 1 - r2)) - 2.9 * q;
         ball -= 30 * smooth_step(0.93, 1.5, std::sqrt(r2));
         const double taper = std::pow(std::max(0.0, 1 - q * q), 0.5);
         const double upper_edge = smooth_step(upper_lid - 0.2, upper_lid + 0.9, v),
                      lower_edge = smooth_step(lower_lid + 0.2, lower_lid - 0.9, v);
-        const double lid = (0.35 + 1.25 * taper) * upper_edge + (0.35 + 0.95 * taper) * lower_edge;
+        const double lid = (0.35 + 1.25 * taper) * upper_edge + (0.35 + 0.75 * taper) * lower_edge;
         const bool open = v < upper_lid && v > lower_lid && std::abs(q) < 1;
         double eye_z = ball + lid;
         if (open) {  // cornea
@@ -298,7 +309,7 @@ private:
             if (c < 1) eye_z += 1.1 * (1 - c * c) * (1 - c * c);
         }
         const double socket = z - deep * bell(q, 0.8) * hump(above_middle, 16);
-        z = smooth_max(socket, eye_z, 2.2);
+        z = smooth_max(socket, eye_z, 3.2);
         // Fold of the upper lid: a crease, and the skin over it that hangs forward.
         const double fold = v - (upper_lid + 4.3 - 1.2 * q * q);
         const double along = hump(q - 0.05, 1.2);
@@ -311,7 +322,7 @@ private:
     const Sheet& sheet_;
     const FaceNumbers& face_;
     Profile profile_;
-    MonotoneCurve y_;
+    MonotoneCurve y_, y_side_;
     std::pair<Table, Table> midline_;
     Table base_shift_;
     std::array<MonotoneCurve, 5> levels_;
