@@ -180,6 +180,7 @@ std::string region_of(const SheetVertex& p) {
     using namespace place;
     const double a = std::abs(p.s);
     if (p.v < upper_lid && p.v > lower_lid && std::abs(p.across_eye) < 1) return "eye";
+    if (p.v < upper_lid + 1.4 && p.v > lower_lid - 1.4 && std::abs(p.across_eye) < 1) return "lid";
     if (p.v <= upper_lip && p.v >= lower_lip && a <= mouth_corner) return "lip";
     if (std::hypot((a - 7.0) / 3.0, (p.t + 52.2) / 1.7) < 1) return "nostril";
     const double thickness = 4.2 - 2.4 * smooth_step(34, 52, a);
