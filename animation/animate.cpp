@@ -19,6 +19,7 @@ using modeling::ExpressionModel;
 AnimationOptions AnimationOptions::thesis() {
     AnimationOptions options;
     options.kernel = geometry::SplineKernel::r2_log_r2;
+    options.landmark_smoothing = 0.0;
     options.anchors = false;
     options.snap_to_vertices = true;
     options.border_mm = 0.0;
@@ -27,6 +28,8 @@ AnimationOptions AnimationOptions::thesis() {
 
 void AnimationOptions::check() const {
     if (!(smoothing >= 0)) throw InputError(fmt::format("smoothing is {}; give 0 or more", smoothing));
+    if (!(landmark_smoothing >= 0))
+        throw InputError(fmt::format("landmark_smoothing is {}; give 0 or more", landmark_smoothing));
     if (!(border_mm >= 0)) throw InputError(fmt::format("border_mm is {}; give 0 (hard cut) or more", border_mm));
 }
 
@@ -80,7 +83,8 @@ Controls carry(const TargetFace& target, const ExpressionModel& model, const Ani
         image.push_back(pair.target_mm);
         names.push_back(pair.name);
     }
-    const auto target_from_model = geometry::ThinPlateSpline::fit(source, image, {.kernel = options.kernel}, names);
+    const auto target_from_model = geometry::ThinPlateSpline::fit(
+        source, image, {.kernel = options.kernel, .smoothing = options.landmark_smoothing}, names);
 
     double ratio = 1.0;
     if (options.mouth_ratio && model.moves_lower_face && !model.moves_upper_face && model.mouth_width_mm > 0)

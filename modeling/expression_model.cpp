@@ -30,6 +30,7 @@ ModelOptions ModelOptions::thesis() {
     ModelOptions options;
     options.frame = Frame::affine;
     options.kernel = geometry::SplineKernel::r2_log_r2;
+    options.smoothing = 0.0;
     options.anchors = false;
     options.coverage_points = false;
     options.snap_to_vertices = true;
