@@ -138,6 +138,12 @@ std::vector<Vector> expression_field(const TargetFace& target, const ExpressionM
     if (model.moves_upper_face != model.moves_lower_face)
         weights = modeling::region_weights(target.face().grid, target.face().landmarks, model.moves_lower_face,
                                            options.border_mm);
+    if (!options.keep.empty()) {
+        if (options.keep.size() != weights.size())
+            throw InputError(fmt::format("keep has {} weights for {} vertices; give one per grid vertex",
+                                         options.keep.size(), weights.size()));
+        for (std::size_t v = 0; v < weights.size(); ++v) weights[v] *= options.keep[v];
+    }
     std::vector<std::uint32_t> moving;
     std::vector<Point> positions;
     for (std::uint32_t v = 0; v < target.vertices_mm().size(); ++v)

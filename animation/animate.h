@@ -24,14 +24,17 @@ enum class Combination {
 struct AnimationOptions {
     geometry::SplineKernel kernel = geometry::SplineKernel::r;
     double smoothing = 0.0;  ///< of the warp, unit of the kernel
-    /// Of the spline that carries the controls (Eq. 5.7), unit of the kernel. Landmarks are marked to 0.5-1 mm only, and
-    /// an exact spline hands that on: 10 mm measured better than 0.
+    /// Of the spline that carries the controls (Eq. 5.7), unit of the kernel. Landmarks are marked to 0.5-1 mm only,
+    /// and an exact spline hands that on: 10 mm measured better than 0.
     double landmark_smoothing = 10.0;
-    bool anchors = true;      ///< the model's anchors hold still in the warp
-    bool mouth_ratio = true;  ///< Eq. 5.8: lower-face AUs scale with the mouth width
+    bool anchors = true;            ///< the model's anchors hold still in the warp
+    bool mouth_ratio = true;        ///< Eq. 5.8: lower-face AUs scale with the mouth width
     bool snap_to_vertices = false;  ///< carried points go to the nearest vertex (thesis), not the nearest surface point
     double border_mm = 12.0;        ///< width over which an AU fades at the border of its region; 0: hard cut (thesis)
     Combination combination = Combination::sum;
+    /// How much of its displacement each grid vertex of the target keeps, e.g. modeling::held_weights; empty: all of
+    /// it.
+    std::vector<double> keep;
 
     /// The thesis as printed: r^2 ln r^2, no anchors, hard cut between upper and lower face.
     [[nodiscard]] static AnimationOptions thesis();

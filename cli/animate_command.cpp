@@ -13,6 +13,7 @@
 #include "cli/command.h"
 #include "cli/method_options.h"
 #include "geometry/errors.h"
+#include "modeling/region_labels.h"
 #include "modeling/source_expression.h"
 
 namespace mimik::cli {
@@ -22,7 +23,8 @@ struct Arguments {
     Common common;
     MethodArguments method;
     std::string workspace, source = "mean", target, output, frame = "scanner", combine = "sum";
-    std::vector<std::string> action_units;
+    std::vector<std::string> action_units, hold;
+    std::string regions;
     bool keep_bridged = false, arkit_names = false;
 };
 
@@ -56,6 +58,14 @@ int run(Arguments& arguments) {
              selection.magnitude});
     }
     for (std::size_t k = 0; k < models.size(); ++k) expressions.push_back({&models[k], names[k].magnitude});
+    if (!arguments.hold.empty()) {
+        const auto& average = workspace.average();
+        const auto labels = arguments.regions.empty()
+                                ? modeling::label_regions(average.grid, average.landmarks)
+                                : modeling::read_region_labels(arguments.regions, average.grid.rows, average.grid.cols);
+        animation_options.keep =
+            modeling::held_weights(labels, average, neutral, arguments.hold, animation_options.border_mm);
+    }
     const auto animated = animation::animate(target, expressions, animation_options);
 
     animation::ExportOptions export_options;
@@ -123,6 +133,10 @@ void add_animate_command(CLI::App& app, int& exit_code) {
     command->add_option("--combine", arguments->combine, "Several AUs: sum, or parallel (equal pulls do not double)")
         ->check(CLI::IsMember({"sum", "parallel"}))
         ->capture_default_str();
+    command->add_option("--hold", arguments->hold, "Regions that stay still, e.g. nose,eye_left (see 'mimik regions')")
+        ->delimiter(',');
+    command->add_option("--regions", arguments->regions, "Another label file than the one that Mimik draws")
+        ->check(CLI::ExistingFile);
     command->add_option("--frame", arguments->frame, "Millimetres of the target's own scan, or of the average face")
         ->check(CLI::IsMember({"scanner", "average"}))
         ->capture_default_str();

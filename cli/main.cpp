@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_model_command(app, exit_code);
     mimik::cli::add_preprocess_command(app, exit_code);
     mimik::cli::add_synthesize_command(app, exit_code);
+    mimik::cli::add_regions_command(app, exit_code);
     mimik::cli::add_warp_command(app, exit_code);
     return mimik::cli::run(app, argc, argv, exit_code);
 }

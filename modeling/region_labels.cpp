@@ -1,0 +1,147 @@
+#include "modeling/region_labels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "geometry/csv.h"
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/point_index.h"
+#include "geometry/thin_plate_spline.h"
+
+namespace mimik::modeling {
+
+using geometry::Point;
+
+std::vector<std::string> RegionLabels::names() const {
+    std::set<std::string> all(label.begin(), label.end());
+    all.erase("");
+    return {all.begin(), all.end()};
+}
+
+RegionLabels label_regions(const geometry::QuadGrid& grid, const geometry::Landmarks& landmarks) {
+    const auto at = [&](const char* name) { return landmarks.position_mm(name); };
+    const Point eye_left = at("eye_outer_left"), eye_right = at("eye_outer_right");
+    const double unit = (eye_left - eye_right).norm();
+    const double middle_x = 0.5 * (eye_left.x() + eye_right.x());
+    const double eyes_y = 0.5 * (eye_left.y() + eye_right.y());
+    const double brow_y = 0.25 * (at("brow_inner_left").y() + at("brow_inner_right").y() + at("brow_middle_left").y() +
+                                  at("brow_middle_right").y());
+    const double nose_base_y = 0.5 * (at("nose_wing_left").y() + at("nose_wing_right").y()) - 0.05 * unit;
+    const double wing_x = 0.5 * (at("nose_wing_left") - at("nose_wing_right")).norm() + 0.03 * unit;
+    const double saddle_x = 0.5 * (at("nose_saddle_left") - at("nose_saddle_right")).norm() + 0.02 * unit;
+    const double mouth_x = 0.5 * (at("mouth_corner_left") - at("mouth_corner_right")).norm() + 0.06 * unit;
+    const double lips_y = 0.5 * (at("upper_lip_inner").y() + at("lower_lip_inner").y());
+    const double below_lips_y = at("lower_lip_outer").y() - 0.07 * unit;
+    const double brow_half = 0.09 * unit;  // half the height of the brow band
+
+    RegionLabels labels{grid.rows, grid.cols, std::vector<std::string>(grid.size())};
+    for (std::size_t v = 0; v < grid.size(); ++v) {
+        if (!grid.inside(v)) continue;
+        const double x = grid.vertices_mm[v].x() - middle_x, y = grid.vertices_mm[v].y(), away = std::abs(x);
+        const std::string side = x >= 0 ? "_left" : "_right";
+        const double nose_half =
+            saddle_x + (wing_x - saddle_x) * std::clamp((eyes_y - y) / (eyes_y - nose_base_y), 0.0, 1.0);
+        auto& label = labels.label[v];
+        if (y > brow_y + brow_half)
+            label = away > 0.62 * unit ? "temple" + side : "forehead";
+        else if (away > 0.66 * unit && y > eyes_y - 0.15 * unit)
+            label = "temple" + side;
+        else if (y > brow_y - brow_half)
+            label = away < 0.07 * unit ? "nose" : "brow" + side;  // the nose's root, between the brows
+        else if (away < nose_half && y > nose_base_y)
+            label = "nose";
+        else if (y > eyes_y - 0.16 * unit)
+            label = "eye" + side;
+        else if (away < mouth_x && y > lips_y && y <= nose_base_y)
+            label = "upper_lip";
+        else if (away < mouth_x && y > below_lips_y && y <= lips_y)
+            label = "lower_lip";
+        else if (away < 0.30 * unit && y <= below_lips_y)
+            label = "chin";
+        else if (y <= below_lips_y)
+            label = "jaw" + side;
+        else
+            label = "cheek" + side;
+    }
+    return labels;
+}
+
+void write_region_labels(const std::filesystem::path& file, const RegionLabels& labels) {
+    std::string text = "row,col,region\n";
+    for (int row = 0; row < labels.rows; ++row)
+        for (int col = 0; col < labels.cols; ++col) {
+            const auto& label = labels.label[static_cast<std::size_t>(row) * static_cast<std::size_t>(labels.cols) +
+                                             static_cast<std::size_t>(col)];
+            if (!label.empty()) text += fmt::format("{},{},{}\n", row, col, label);
+        }
+    geometry::write_atomically(file, text);
+}
+
+RegionLabels read_region_labels(const std::filesystem::path& file, int rows, int cols) {
+    const auto text = geometry::read_text(file, 1 << 26);
+    geometry::CsvReader table(text, file.string());
+    const auto row_column = table.column("row"), col_column = table.column("col"),
+               region_column = table.column("region");
+    RegionLabels labels{rows, cols,
+                        std::vector<std::string>(static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))};
+    while (table.next()) {
+        const double row = table.number(row_column), col = table.number(col_column);
+        if (!(row >= 0 && row < rows && col >= 0 && col < cols) || row != std::floor(row) || col != std::floor(col))
+            table.fail(
+                fmt::format("vertex ({}, {}) is not on the average face's grid of {} x {}", row, col, rows, cols));
+        labels.label[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col)] =
+            table.field(region_column);
+    }
+    return labels;
+}
+
+std::vector<double> held_weights(const RegionLabels& labels, const preprocessing::AverageFace& average,
+                                 const preprocessing::Face& face, std::span<const std::string> held, double border_mm) {
+    const auto names = labels.names();
+    for (const auto& region : held)
+        if (!std::binary_search(names.begin(), names.end(), region))
+            throw InputError(fmt::format("region '{}' is unknown; there are: {}", region, fmt::join(names, ", ")));
+    std::vector<double> weights(face.grid.size(), 1.0);
+    if (held.empty()) return weights;
+
+    std::vector<Point> known, vertices, from, to;
+    std::vector<std::size_t> place;
+    for (std::size_t v = 0; v < average.grid.size(); ++v)
+        if (average.grid.inside(v)) {
+            known.push_back(average.grid.vertices_mm[v]);
+            place.push_back(v);
+        }
+    for (std::size_t v = 0; v < face.grid.size(); ++v)
+        vertices.push_back(face.grid.inside(v) ? face.grid.vertices_mm[v] : Point(Point::Zero()));
+    for (const auto& pair : geometry::pair_by_name(face.landmarks, average.landmarks).pairs) {
+        from.push_back(pair.source_mm);
+        to.push_back(pair.target_mm);
+    }
+    auto on_average = vertices;
+    geometry::ThinPlateSpline::fit(from, to).apply(on_average, on_average);
+    const auto nearest = geometry::PointIndex(known).nearest(on_average);
+    std::vector<Point> still;
+    std::vector<char> is_held(weights.size(), 0);
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        if (!face.grid.inside(v)) continue;
+        const auto& label = labels.label[place[nearest[v].index]];
+        if (std::find(held.begin(), held.end(), label) == held.end()) continue;
+        is_held[v] = 1;
+        still.push_back(vertices[v]);
+    }
+    if (still.empty()) return weights;
+    const auto distance = geometry::PointIndex(still).nearest(vertices);
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        if (!face.grid.inside(v)) continue;
+        const double t = border_mm > 0 ? std::clamp(distance[v].distance_mm / border_mm, 0.0, 1.0) : 1.0;
+        weights[v] = is_held[v] ? 0.0 : t * t * (3 - 2 * t);
+    }
+    return weights;
+}
+
+}  // namespace mimik::modeling

@@ -1,0 +1,104 @@
+#include "modeling/region_labels.h"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "tests/support/analytic_workspace.h"
+
+namespace mimik::modeling {
+namespace {
+
+using geometry::Point;
+using testing::HasSubstr;
+
+class Regions : public testing::Test {
+protected:
+    Regions() : average(test::analytic_average()), labels(label_regions(average.grid, average.landmarks)) {}
+    [[nodiscard]] std::string at(double x, double y) const {
+        std::size_t best = 0;
+        double nearest = 1e9;
+        for (std::size_t v = 0; v < average.grid.size(); ++v) {
+            const double d = std::hypot(average.grid.vertices_mm[v].x() - x, average.grid.vertices_mm[v].y() - y);
+            if (average.grid.inside(v) && d < nearest) {
+                nearest = d;
+                best = v;
+            }
+        }
+        return labels.label[best];
+    }
+    preprocessing::AverageFace average;
+    RegionLabels labels;
+};
+
+TEST_F(Regions, lie_where_their_names_say) {
+    EXPECT_EQ(at(0, 0), "nose");
+    EXPECT_EQ(at(0, 75), "forehead");
+    EXPECT_EQ(at(32, 53), "brow_left");
+    EXPECT_EQ(at(-32, 53), "brow_right");
+    EXPECT_EQ(at(32, 35), "eye_left");
+    EXPECT_EQ(at(-45, -10), "cheek_right");
+    EXPECT_EQ(at(0, -26), "upper_lip");
+    EXPECT_EQ(at(5, -38), "lower_lip");
+    EXPECT_EQ(at(0, -62), "chin");
+}
+
+TEST_F(Regions, every_vertex_of_the_inside_has_one_and_the_halves_mirror_each_other) {
+    const auto& grid = average.grid;
+    for (int row = 0; row < grid.rows; ++row)
+        for (int col = 0; col < grid.cols; ++col) {
+            const auto v = grid.index(row, col), mirror = grid.index(row, grid.cols - 1 - col);
+            ASSERT_EQ(labels.label[v].empty(), !grid.inside(v));
+            if (grid.inside(v) && grid.inside(mirror)) {
+                ASSERT_EQ(labels.label[mirror], geometry::mirrored_name(labels.label[v])) << row << " " << col;
+            }
+        }
+}
+
+TEST_F(Regions, a_label_file_comes_back_as_it_was_and_says_which_vertex_is_off_the_grid) {
+    const auto file = std::filesystem::temp_directory_path() / "mimik_region_labels_test.csv";
+    write_region_labels(file, labels);
+    EXPECT_EQ(read_region_labels(file, labels.rows, labels.cols).label, labels.label);
+    geometry::write_atomically(file, "row,col,region\n3,999,nose\n");
+    try {
+        (void)read_region_labels(file, labels.rows, labels.cols);
+        FAIL() << "accepted";
+    } catch (const InputError& e) {
+        EXPECT_THAT(e.what(), HasSubstr("(3, 999)"));
+    }
+    std::filesystem::remove(file);
+}
+
+TEST_F(Regions, a_held_region_keeps_nothing_and_the_face_far_from_it_everything) {
+    const auto subject = test::analytic_subject(average, 1.0, 0.0);
+    const std::vector<std::string> held = {"nose"};
+    const auto weights = held_weights(labels, average, subject.neutral, held, 10.0);
+    const Point nose = subject.neutral.landmarks.position_mm("nose_tip"),
+                chin = subject.neutral.landmarks.position_mm("chin");
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        if (!subject.neutral.grid.inside(v)) continue;
+        if ((subject.neutral.grid.vertices_mm[v] - nose).norm() < 4) {
+            ASSERT_EQ(weights[v], 0.0);
+        }
+        if ((subject.neutral.grid.vertices_mm[v] - chin).norm() < 10) {
+            ASSERT_EQ(weights[v], 1.0);
+        }
+    }
+}
+
+TEST_F(Regions, an_unknown_region_is_named_with_those_there_are) {
+    const auto subject = test::analytic_subject(average, 1.0, 0.0);
+    const std::vector<std::string> held = {"ear"};
+    try {
+        (void)held_weights(labels, average, subject.neutral, held, 10.0);
+        FAIL() << "accepted";
+    } catch (const InputError& e) {
+        EXPECT_THAT(e.what(), testing::AllOf(HasSubstr("'ear'"), HasSubstr("upper_lip")));
+    }
+}
+
+}  // namespace
+}  // namespace mimik::modeling
