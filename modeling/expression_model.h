@@ -25,9 +25,10 @@ enum class Frame {
 struct ModelOptions {
     Frame frame = Frame::similarity;
     geometry::SplineKernel kernel = geometry::SplineKernel::r;
-    double smoothing = 10.0;     ///< of the landmark splines, unit of the kernel: landmarks are marked to 0.5-1 mm only
-    bool anchors = true;         ///< points that the AU leaves alone hold still in the neutral-to-expressive map
-    bool wrinkle_points = true;  ///< thesis 5.5.2
+    double smoothing = 30.0;  ///< of the landmark splines, unit of the kernel: landmarks are marked to 0.5-1 mm only,
+                              ///< and of 0, 10, 30 mm the last measured best
+    bool anchors = true;      ///< points that the AU leaves alone hold still in the neutral-to-expressive map
+    bool wrinkle_points = true;     ///< thesis 5.5.2
     bool coverage_points = true;    ///< further points that cover the active zone evenly
     bool snap_to_vertices = false;  ///< move points to the nearest vertex (thesis) instead of the nearest surface point
     bool place_on_average =
