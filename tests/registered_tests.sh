@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# registered_tests.sh SOURCE BUILD: every TEST, TEST_F and TEST_P in SOURCE/tests is a test that ctest runs in BUILD.
+set -euo pipefail
+cd "$1"
+known=$(ctest --test-dir "$2" -N)
+wrong=0 count=0
+while read -r kind suite name; do
+  count=$((count + 1))
+  [ "$kind" = TEST_P ] && pattern="[ /]$suite\.$name/" || pattern=" $suite\.$name\$"
+  grep -qE "$pattern" <<<"$known" || { echo "ctest does not run $kind($suite, $name); is its file in a CMakeLists.txt?"; wrong=1; }
+done < <(find tests -name '*.cpp' -exec cat {} + | tr '\n' ' ' | grep -oE '\bTEST(_F|_P)?\( *\w+, *\w+ *\)' | tr -s '(,)' ' ')
+echo "$count tests in the sources, $(grep -c ' Test *#' <<<"$known") with their parameters"
+[ "$count" -gt 0 ] && exit $wrong
+echo "no test found in $1/tests"
+exit 1
