@@ -52,7 +52,7 @@ int run(Arguments& arguments) {
             } catch (const std::exception& e) {
                 failures.push_back(fmt::format("{} of {}: {}", expression, source, e.what()));
             }
-            progress.advance(source + " " + expression);
+            progress.advance(fmt::format("{} {}", source, expression));
         }
     }
     if (arguments.common.json)

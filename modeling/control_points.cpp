@@ -148,7 +148,7 @@ std::vector<char> stable_vertices(const FacsCatalogue& catalogue, const std::str
     for (std::size_t v = 0; v < grid.size(); ++v) {
         if (!grid.measured(v)) continue;
         ++measured;
-        stable[v] = zone.distance(average_from_scan * grid.vertices_mm[v]) > margin;
+        stable[v] = zone.distance(average_from_scan * grid.vertices_mm[v]) > margin ? 1 : 0;
         count += static_cast<std::size_t>(stable[v]);
     }
     if (10 * count >= measured) return stable;
@@ -159,7 +159,7 @@ std::vector<char> stable_vertices(const FacsCatalogue& catalogue, const std::str
         const Point p = (average_from_scan * grid.vertices_mm[v] - eyes) / unit;
         const bool nose_bridge = std::abs(p.x()) < 0.22 && p.y() > -0.30 && p.y() < 0.10;
         const bool temple = std::abs(p.x()) > 0.50 && std::abs(p.x()) < 0.75 && p.y() > -0.15 && p.y() < 0.40;
-        stable[v] = nose_bridge || temple;
+        stable[v] = nose_bridge || temple ? 1 : 0;
     }
     return stable;
 }

@@ -8,10 +8,10 @@ using geometry::Point;
 
 std::vector<double> region_weights(const geometry::QuadGrid& grid, const geometry::Landmarks& landmarks,
                                    bool lower_face, double border_mm) {
-    const Point left = landmarks.position_mm("eye_outer_left"), right = landmarks.position_mm("eye_outer_right");
+    const Point &left = landmarks.position_mm("eye_outer_left"), &right = landmarks.position_mm("eye_outer_right");
     const Point inner = 0.5 * (landmarks.position_mm("eye_inner_left") + landmarks.position_mm("eye_inner_right"));
     const Point eyes = 0.5 * (0.5 * (left + right) + inner);
-    const Point nose = landmarks.position_mm("nose_tip");
+    const Point& nose = landmarks.position_mm("nose_tip");
     // "Up" on this face, whatever its pose: across the eye line, away from the chin.
     const geometry::Vector across = (left - right).normalized();
     geometry::Vector up = eyes - landmarks.position_mm("chin");

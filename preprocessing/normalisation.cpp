@@ -36,8 +36,8 @@ Transform least_squares(const Landmarks& source, const Landmarks& target, bool w
 }  // namespace
 
 Transform affine_normalisation(const Landmarks& landmarks, const Landmarks& average_landmarks) {
-    const geometry::Point nose = landmarks.position_mm("nose_tip");
-    const geometry::Point average_nose = average_landmarks.position_mm("nose_tip");
+    const geometry::Point& nose = landmarks.position_mm("nose_tip");
+    const geometry::Point& average_nose = average_landmarks.position_mm("nose_tip");
     Eigen::Matrix4d a, b;
     for (int k = 0; k < 4; ++k) {
         const auto name = affine_landmarks[static_cast<std::size_t>(k)];

@@ -76,7 +76,7 @@ std::vector<char> stable_on_every_face(const Face& neutral) {
         const double x = std::abs(p.x() - middle.x()) / eyes_mm, y = (p.y() - middle.y()) / eyes_mm;
         const bool nose_bridge = x < 0.22 && y > -0.30 && y < 0.10;
         const bool temple = x > 0.50 && x < 0.75 && y > -0.15 && y < 0.40;
-        stable[v] = nose_bridge || temple;
+        stable[v] = nose_bridge || temple ? 1 : 0;
     }
     return stable;
 }
@@ -144,6 +144,7 @@ PreprocessReport preprocess_database(const database::ScanDatabase& database, con
         throw InputError(
             fmt::format("{}: no scan fits the selection; 'mimik scans' lists what there is", database.root.string()));
     std::vector<std::string> subjects;
+    subjects.reserve(by_subject.size());
     for (const auto& [subject, entries] : by_subject) subjects.push_back(subject);
 
     // First pass: one neutral per subject, gridded and written. A neutral that fails gives its place to the next one.

@@ -53,7 +53,7 @@ public:
         if (found == facial_motions().end() || found->second.central != (stem == shape))
             throw InputError(
                 fmt::format("the built-in face has no shape '{}'; it has: {}", shape, fmt::join(shapes(), ", ")));
-        const auto left = muscles_.displacement_mm(found->second, neutral_mm(identity));
+        auto left = muscles_.displacement_mm(found->second, neutral_mm(identity));
         if (!right) return left;
         std::vector<geometry::Vector> mirrored(left.size());
         for (std::size_t i = 0; i < left.size(); ++i) {

@@ -206,7 +206,7 @@ void MuscleModel::turn_lips(const Sphincter& lips, double side, std::span<const 
 void MuscleModel::open_jaw(double angle, std::span<const Point> neutral_mm, std::vector<Vector>& moved) const {
     using namespace place;
     // The joints lie just before the ears, under the skin.
-    const Point ear = neutral_mm[sheet_.nearest(98, -24)];
+    const Point& ear = neutral_mm[sheet_.nearest(98, -24)];
     const Eigen::Vector2d axis(ear.y(), ear.z() - 13);
     // An opening jaw also glides forward and down in its joints, about 6 and 4 mm when wide open.
     constexpr double glide_forward = 17, glide_down = 11;

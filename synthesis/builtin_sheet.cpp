@@ -164,6 +164,7 @@ private:
     }
     static std::vector<double> heights() {
         std::vector<double> t;
+        t.reserve(std::size(curves) + std::size(under_curves));
         for (const auto& c : curves) t.push_back(c.t);
         for (const auto& c : under_curves) t.push_back(c.t);
         std::reverse(t.begin(), t.end());
