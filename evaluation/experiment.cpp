@@ -92,25 +92,33 @@ CaseResult judge(const Target& target, const std::vector<Point>& animated_mm,
                  const std::vector<Vector>& displacement_mm, const geometry::QuadGrid& grid, bool whole_face) {
     CaseResult result;
     result.done = true;
+    // A vertex that stays where it was, or was left out, has the distance of doing nothing: only the others are asked.
     std::vector<Point> queries;
-    std::vector<std::size_t> asked;
+    std::vector<std::size_t> asked, moved;
+    std::vector<double> distance_mm;
     for (std::size_t k = 0; k < target.vertices.size(); ++k) {
         if (!whole_face && !target.in_zone[k]) continue;
         const Point& p = animated_mm[target.vertices[k]];
+        if (!p.allFinite()) {
+            ++result.left_out;
+        } else if (p != grid.vertices_mm[target.vertices[k]]) {
+            moved.push_back(asked.size());
+            queries.push_back(p);
+        }
         asked.push_back(k);
-        queries.push_back(p.allFinite() ? p : grid.vertices_mm[target.vertices[k]]);
-        if (!p.allFinite()) ++result.left_out;  // its distance is then that of doing nothing
+        distance_mm.push_back(target.nothing_mm[k]);
     }
     const auto hits = target.expressive->closest(queries);
+    for (std::size_t i = 0; i < moved.size(); ++i) distance_mm[moved[i]] = hits[i].distance_mm;
     double zone = 0, zone_nothing = 0, whole = 0, whole_nothing = 0, true_sum = 0, true_nothing = 0;
     std::size_t zone_count = 0;
     for (std::size_t i = 0; i < asked.size(); ++i) {
         const std::size_t k = asked[i];
-        whole += hits[i].distance_mm;
+        whole += distance_mm[i];
         whole_nothing += target.nothing_mm[k];
         if (!target.in_zone[k]) continue;
         ++zone_count;
-        zone += hits[i].distance_mm;
+        zone += distance_mm[i];
         zone_nothing += target.nothing_mm[k];
         if (!target.true_displacement_mm.empty()) {
             true_sum += (displacement_mm[target.vertices[k]] - target.true_displacement_mm[k]).norm();
@@ -201,18 +209,24 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
         report.rows.push_back({"true field, mean", RowKind::mean, true, {}, 0, 0, 0, {}});
     }
 
-    // Neutral faces, and each of them ready to be animated in both frames.
+    // Held for all subjects: neutral faces and, of a synthetic database, their truth. What a target needs beside them
+    // is made when its turn comes, and costs little beside its transfers.
     std::vector<Face> neutrals(subjects.size());
-    std::vector<std::optional<TargetFace>> similar(subjects.size()), affine(subjects.size());
     std::vector<synthesis::TrueScan> true_neutrals(has_truth ? subjects.size() : 0);
     geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
             neutrals[s] = workspace.face(workspace.neutral(subjects[s]));
-            similar[s].emplace(neutrals[s], modeling::Frame::similarity);
-            affine[s].emplace(neutrals[s], modeling::Frame::affine, true);
             if (has_truth) true_neutrals[s] = synthesis::load_true_scan(*truth, neutrals[s].id);
         }
     });
+
+    // Methods that model alike (default and mean) share the work of the first of them.
+    std::vector<std::size_t> model_of;
+    for (std::size_t m = 0; m < options.methods.size(); ++m) {
+        std::size_t first = 0;
+        while (options.methods[first].model != options.methods[m].model) ++first;
+        model_of.push_back(first);
+    }
 
     std::mutex failures_mutex;
     const auto fail = [&](const std::string& what) {
@@ -248,7 +262,7 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
                         true_expressives[k].displacement_mm[v] -= at_rest[v];
                 }
                 for (std::size_t m = 0; m < options.methods.size(); ++m) {
-                    // Methods that model alike (default and mean) share the work.
+                    if (model_of[m] != m) continue;
                     try {
                         models[m][k] = modeling::measure_expression(catalogue, code, average, neutrals[who[k]],
                                                                     expressives[k], options.methods[m].model);
@@ -322,9 +336,10 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
                     sources.push_back((t + step) % n);
                 }
 
+                const TargetFace similar(neutral, modeling::Frame::similarity);
+                const TargetFace affine(neutral, modeling::Frame::affine, true);
                 const auto put = [&](const Method& method, const ExpressionModel& model) {
-                    const auto& prepared =
-                        method.model.frame == modeling::Frame::affine ? *affine[who[t]] : *similar[who[t]];
+                    const auto& prepared = method.model.frame == modeling::Frame::affine ? affine : similar;
                     const animation::WeightedExpression weighted{&model, method.magnitude};
                     const auto animated = animation::animate(prepared, std::span(&weighted, 1), method.animation);
                     auto result = judge(target, animated.grid.vertices_mm, animated.displacement_mm, neutral.grid,
@@ -338,10 +353,11 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
                 };
                 for (std::size_t m = 0; m < options.methods.size(); ++m) {
                     const auto& method = options.methods[m];
+                    const auto& modelled = models[model_of[m]];
                     std::vector<ExpressionModel> others;
                     for (const auto s : sources)
-                        if (models[m][s]) {
-                            if (method.kind == RowKind::mean) others.push_back(*models[m][s]);
+                        if (modelled[s]) {
+                            if (method.kind == RowKind::mean) others.push_back(*modelled[s]);
                         }
                     try {
                         if (method.kind == RowKind::mean) {
@@ -355,7 +371,7 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
                     }
                     for (const auto s : sources) {
                         try {
-                            cases[m][t * n + s] = models[m][s] ? put(method, *models[m][s]) : nothing();
+                            cases[m][t * n + s] = modelled[s] ? put(method, *modelled[s]) : nothing();
                         } catch (const std::exception& e) {
                             fail(fmt::format("{}: {} -> {} by {}: {}", code, subjects[who[s]], subjects[who[t]],
                                              method.name, e.what()));

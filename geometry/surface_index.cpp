@@ -402,17 +402,32 @@ SurfacePoint SurfaceIndex::closest(const Point& query_mm) const {
 }
 
 std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_mm) const {
+    return closest(queries_mm, {});
+}
+
+std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_mm,
+                                                std::span<const std::uint32_t> near_triangles) const {
+    if (!near_triangles.empty() && near_triangles.size() != queries_mm.size())
+        throw InputError(fmt::format("{} near triangles for {} query points; give one for each", near_triangles.size(),
+                                     queries_mm.size()));
     std::vector<SurfacePoint> answers(queries_mm.size());
     parallel_for(queries_mm.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        std::uint32_t neighbour = none;
+        std::uint32_t start = none;  // without a better guess, the last query's triangle
         for (std::size_t i = begin; i < end; ++i) {
             const Point& query = queries_mm[i];
             Impl::check_query(query, i);
+            if (!near_triangles.empty()) start = near_triangles[i];
             Nearest best;
-            if (neighbour != none) best = {measure(impl_->corners(neighbour), query), neighbour};
+            if (start != none) {
+                if (start >= impl_->triangles.size())
+                    throw InputError(
+                        fmt::format("query point {} is said to lie near triangle {}, but there are only {}", i, start,
+                                    impl_->triangles.size()));
+                best = {measure(impl_->corners(start), query), start};
+            }
             impl_->search(query, best);
             answers[i] = impl_->answer(best);
-            neighbour = best.triangle;
+            start = best.triangle;
         }
     });
     return answers;

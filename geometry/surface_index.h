@@ -38,6 +38,10 @@ public:
     [[nodiscard]] SurfacePoint closest(const Point& query_mm) const;
     /// Many at once, parallel; neighbouring queries that lie close together are answered faster.
     [[nodiscard]] std::vector<SurfacePoint> closest(std::span<const Point> queries_mm) const;
+    /// The same answers, sooner where query k lies near the triangle `near_triangles[k]`: that of its last answer, when
+    /// queries move a little at a time. @throws InputError also if the spans differ in length or a triangle is unknown.
+    [[nodiscard]] std::vector<SurfacePoint> closest(std::span<const Point> queries_mm,
+                                                    std::span<const std::uint32_t> near_triangles) const;
     /// True where the triangle's closest point lies on an edge that only one triangle has (the scan's border). Corners
     /// at exactly the same position count as one vertex, so a texture seam is not a border. A weight below 1e-9 counts
     /// as lying on the edge.

@@ -36,6 +36,7 @@ struct ModelOptions {
 
     /// The thesis as printed: affine frame, r^2 ln r^2, no anchors, muscle and wrinkle points, nearest vertices.
     [[nodiscard]] static ModelOptions thesis();
+    [[nodiscard]] bool operator==(const ModelOptions&) const = default;
     void check() const;
 };
 

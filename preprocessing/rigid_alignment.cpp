@@ -21,6 +21,7 @@ void RigidAlignmentOptions::check() const {
     if (!(trim > 0 && trim <= 1)) throw InputError(fmt::format("trim is {}; give a share above 0 and up to 1", trim));
     if (!(max_distance_mm > 0))
         throw InputError(fmt::format("max_distance_mm is {}; give more than 0", max_distance_mm));
+    if (max_points < 100) throw InputError(fmt::format("max_points is {}; give 100 or more", max_points));
 }
 
 namespace {
@@ -32,6 +33,32 @@ struct Pair {
     double distance_mm;
 };
 
+/// The `kept` closest pairs in the order they came; of equally close ones the first.
+void trim_pairs(std::vector<Pair>& pairs, std::size_t kept) {
+    if (kept == pairs.size()) return;
+    std::vector<double> distances(pairs.size());
+    std::transform(pairs.begin(), pairs.end(), distances.begin(), [](const Pair& pair) { return pair.distance_mm; });
+    const auto last = distances.begin() + static_cast<std::ptrdiff_t>(kept - 1);
+    std::nth_element(distances.begin(), last, distances.end());
+    const double limit_mm = *last;
+    auto ties = static_cast<std::size_t>(std::count(distances.begin(), last + 1, limit_mm));
+    std::erase_if(pairs, [&](const Pair& pair) {
+        if (pair.distance_mm == limit_mm && ties > 0) {
+            --ties;
+            return false;
+        }
+        return pair.distance_mm >= limit_mm;
+    });
+}
+
+/// Evenly through the list, no more than `most`.
+std::vector<Point> thinned(std::span<const Point> points, std::size_t most) {
+    const std::size_t stride = std::max<std::size_t>(1, (points.size() + most - 1) / most);
+    std::vector<Point> some;
+    for (std::size_t k = 0; k < points.size(); k += stride) some.push_back(points[k]);
+    return some;
+}
+
 }  // namespace
 
 RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::SurfaceIndex& target,
@@ -39,19 +66,23 @@ RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::S
     options.check();
     const auto vertices = target.vertices_mm();
     const auto triangles = target.triangles();
+    const auto points = thinned(source_mm, options.max_points);
     RigidAlignment result;
     result.target_from_source = start;
 
-    std::vector<Point> moved(source_mm.size());
+    std::vector<Point> moved(points.size());
+    std::vector<std::uint32_t> near;  // where each point was last: it moves little from step to step
     std::vector<Pair> pairs;
     while (result.iterations < options.max_iterations && !result.converged) {
         ++result.iterations;
-        std::transform(source_mm.begin(), source_mm.end(), moved.begin(),
+        std::transform(points.begin(), points.end(), moved.begin(),
                        [&](const Point& p) -> Point { return result.target_from_source * p; });
-        const auto hits = target.closest(moved);
+        const auto hits = target.closest(moved, near);
+        near.resize(hits.size());
         pairs.clear();
         result.border_hits = 0;
         for (std::size_t k = 0; k < hits.size(); ++k) {
+            near[k] = hits[k].triangle;
             if (hits[k].distance_mm > options.max_distance_mm) continue;
             if (target.on_border(hits[k])) {
                 ++result.border_hits;
@@ -66,10 +97,8 @@ RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::S
             throw NumericalError(
                 fmt::format("rigid alignment: only {} of {} points found a partner on the other scan; "
                             "30 are needed (is this the same face, in the same unit?)",
-                            kept, source_mm.size()));
-        std::stable_sort(pairs.begin(), pairs.end(),
-                         [](const Pair& a, const Pair& b) { return a.distance_mm < b.distance_mm; });
-        pairs.resize(kept);
+                            kept, points.size()));
+        trim_pairs(pairs, kept);
 
         // Small rotation w and shift t about the centroid c: minimise sum (n . (p + w x (p - c) + t - q))^2.
         Point centre = Point::Zero();

@@ -190,6 +190,25 @@ TEST(SurfaceIndex, answers_depend_neither_on_threads_nor_on_the_order_of_queries
     }
 }
 
+TEST(SurfaceIndex, a_triangle_to_begin_at_changes_no_answer) {
+    const auto face = height_field(40, 5);
+    const SurfaceIndex index(face.vertices_mm, face.triangles);
+    std::mt19937_64 engine(6);
+    std::vector<Point> queries;
+    std::vector<std::uint32_t> anywhere;
+    for (int i = 0; i < 500; ++i) {
+        queries.emplace_back(uniform(engine, -90, 90), uniform(engine, -120, 120), uniform(engine, -30, 120));
+        anywhere.push_back(static_cast<std::uint32_t>(engine() % face.triangles.size()));
+    }
+    const auto plain = index.closest(queries), begun = index.closest(queries, anywhere);
+    for (std::size_t i = 0; i < queries.size(); ++i) EXPECT_TRUE(same_bits(plain[i], begun[i])) << i;
+    EXPECT_THAT([&] { (void)index.closest(queries, std::span(anywhere).first(3)); },
+                ThrowsMessage<InputError>(HasSubstr("3 near triangles for 500 query points")));
+    anywhere[7] = 1'000'000;
+    EXPECT_THAT([&] { (void)index.closest(queries, anywhere); },
+                ThrowsMessage<InputError>(HasSubstr("query point 7 is said to lie near triangle 1000000")));
+}
+
 TEST(SurfaceIndex, border_is_the_rim_and_not_the_diagonals_inside) {
     const auto s = height_field(10, 11);
     const SurfaceIndex index(s.vertices_mm, s.triangles);

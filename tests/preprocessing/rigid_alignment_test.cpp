@@ -83,9 +83,26 @@ TEST(RigidAlignment, a_scan_far_away_is_refused_with_counts) {
     }
 }
 
+TEST(RigidAlignment, a_tenth_of_the_points_finds_the_same_motion) {
+    const test::AnalyticFace face;
+    const auto target = surface_of(face);
+    const Transform target_from_source(Eigen::Translation3d(1, 2, -1) * Eigen::AngleAxisd(0.03, Point::UnitY()));
+    std::vector<Point> source;
+    for (double y = 0; y <= 60; y += 1)
+        for (double x = -50; x <= 50; x += 1) source.push_back(target_from_source.inverse() * face.point(x, y));
+    const geometry::SurfaceIndex index(target.vertices, target.triangles);
+    const auto some = align_rigidly(source, index, Transform::Identity(), {.max_points = 600});
+    const auto all = align_rigidly(source, index, Transform::Identity(), {.max_points = 10'000});
+    EXPECT_EQ(all.pairs_used, static_cast<std::size_t>(std::ceil(0.7 * static_cast<double>(source.size()))));
+    EXPECT_LT(some.pairs_used, 600U);
+    // Points on the surface itself: both stop within some steps of 0.002 mm of the same pose.
+    for (const auto& p : source) ASSERT_LT((some.target_from_source * p - all.target_from_source * p).norm(), 0.03);
+}
+
 TEST(RigidAlignmentOptions, defaults_are_valid_and_a_trim_of_zero_is_not) {
     EXPECT_NO_THROW(RigidAlignmentOptions{}.check());
     EXPECT_THROW(RigidAlignmentOptions{.trim = 0}.check(), InputError);
+    EXPECT_THROW(RigidAlignmentOptions{.max_points = 0}.check(), InputError);
 }
 
 }  // namespace
