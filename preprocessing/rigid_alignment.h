@@ -15,7 +15,7 @@ struct RigidAlignmentOptions {
     /// whose true pose is known, stopping at a twentieth of this or using all points comes no closer to it.
     double stop_rotation_deg = 2e-3;
     double stop_shift_mm = 2e-3;
-    std::size_t max_points = 3000;  ///< of the source, evenly through the list
+    std::size_t max_points = 2000;  ///< of the source, evenly through the list
     void check() const;
 };
 

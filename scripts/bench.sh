@@ -26,8 +26,10 @@ if [ "$filter" = . ]; then
   python=/usr/bin/python3
   if "$python" -c 'import scipy' 2>/dev/null; then
     echo "bench.sh: Python peers" >&2
-    OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "$python" bench/peers.py >"$results/peers.json"
-    files+=("$results/peers.json")
+    for peers in peers gridding_peers; do
+      OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "$python" "bench/$peers.py" >"$results/$peers.json"
+      files+=("$results/$peers.json")
+    done
   else
     echo "bench.sh: python3-scipy is not installed: no Python peers" >&2
   fi
