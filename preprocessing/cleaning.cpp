@@ -33,19 +33,21 @@ struct Neighbours {
 };
 
 Neighbours lattice_neighbours(const RangeScan& scan, int radius) {
+    std::vector<char> valid(scan.points_mm.size());  // each point is asked for by 24 others
+    for (std::size_t i = 0; i < valid.size(); ++i) valid[i] = static_cast<char>(scan.valid(i));
     Neighbours neighbours;
     neighbours.first.reserve(scan.points_mm.size() + 1);
     neighbours.index.reserve(scan.points_mm.size() * static_cast<std::size_t>(4 * radius * (radius + 1)));
     neighbours.first.push_back(0);
     for (int row = 0; row < scan.rows; ++row)
         for (int col = 0; col < scan.cols; ++col) {
-            if (scan.valid(static_cast<std::size_t>(row) * static_cast<std::size_t>(scan.cols) +
-                           static_cast<std::size_t>(col)))
+            if (valid[static_cast<std::size_t>(row) * static_cast<std::size_t>(scan.cols) +
+                      static_cast<std::size_t>(col)])
                 for (int r = std::max(0, row - radius); r <= std::min(scan.rows - 1, row + radius); ++r)
                     for (int c = std::max(0, col - radius); c <= std::min(scan.cols - 1, col + radius); ++c) {
                         const auto other = static_cast<std::size_t>(r) * static_cast<std::size_t>(scan.cols) +
                                            static_cast<std::size_t>(c);
-                        if ((r != row || c != col) && scan.valid(other))
+                        if (valid[other] && (r != row || c != col))
                             neighbours.index.push_back(static_cast<std::uint32_t>(other));
                     }
             neighbours.first.push_back(neighbours.index.size());
