@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# reproduce.sh [--face-model DIR] [--out DIR] [--seed N]: installs what is missing, builds, and runs the main job on faces that Mimik makes
+# itself: a database of 12 subjects, preprocessing, models of the thesis's nine Action Units, animated faces, scores and figures.
+# With --face-model (a clone of ICT-FaceKit) the same on faces from scanned people.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+out=out/reproduce
+seed=1
+model=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --face-model) model=(--face-model "$2"); shift 2 ;;
+    --out) out=$2; shift 2 ;;
+    --seed) seed=$2; shift 2 ;;
+    *) echo "reproduce.sh: unknown option $1; give --face-model DIR, --out DIR or --seed N" >&2; exit 2 ;;
+  esac
+done
+
+scripts/setup.sh
+launcher=$(command -v ccache || true)
+cmake --preset release -DMIMIK_TESTS=OFF -B build/reproduce ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"}
+cmake --build build/reproduce --target mimik mimik-figure
+mimik=$PWD/build/reproduce/bin/mimik
+
+step() { printf '\n[%s/%s] %s\n' "$1" 6 "$2"; }
+rm -rf "$out"
+mkdir -p "$out/animated" "$out/figures"
+begin=$SECONDS
+
+step 1 "Make a database of 12 subjects (seed $seed)"
+"$mimik" synthesize "$out/database" --subjects 12 --seed "$seed" "${model[@]}"
+
+step 2 "Preprocess it: clean, resample to 150x150, average face, normalise"
+"$mimik" preprocess "$out/database" -o "$out/workspace"
+
+step 3 "Model AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 left on the average face"
+"$mimik" model "$out/workspace" --source mean --expression 1,2,4,12,14,15,17,20,12L
+
+step 4 "Animate neutral faces"
+source=bs000
+target=bs001
+# Figs 6-1 to 6-3 and 6-6: neutral, animated and real faces of a source (its own target) and of a target.
+panels() {  # AU code, scan code, figure name, words
+  local au=$1 scan=$2 name=$3 words=$4 method who
+  for who in "$source" "$target"; do
+    "$mimik" animate "$out/workspace" --source "$source" --target "$who" --au "$au:0" -o "$out/animated/${who}_neutral.ply" --quiet
+    for method in default thesis; do
+      "$mimik" animate "$out/workspace" --source "$source" --target "$who" --au "$au" --method "$method" --quiet \
+        -o "$out/animated/${who}_AU${au}_from_${source}_$method.ply"
+    done
+  done
+  "$mimik" figure -o "$out/figures/$name.png" --columns 4 --title "$words" --quiet \
+    "$out/animated/${source}_neutral.ply" "$out/animated/${source}_AU${au}_from_${source}_default.ply" \
+    "$out/animated/${source}_AU${au}_from_${source}_thesis.ply" "$out/database/$source/${source}_${scan}_0.bnt" \
+    "$out/animated/${target}_neutral.ply" "$out/animated/${target}_AU${au}_from_${source}_default.ply" \
+    "$out/animated/${target}_AU${au}_from_${source}_thesis.ply" "$out/database/$target/${target}_${scan}_0.bnt" \
+    --caption "(a) Neutral source" --caption "(b) Animated, default" --caption "(c) Animated, as the thesis prints it" \
+    --caption "(d) Real scan" --caption "(e) Neutral target" --caption "(f) Animated with the source's AU, default" \
+    --caption "(g) Animated, as the thesis prints it" --caption "(h) Real scan"
+}
+panels 4 UFAU_4 fig_6-1_AU4 "AU 4, brow lowerer"
+panels 12 LFAU_12 fig_6-2_AU12 "AU 12, lip corner puller"
+panels 15 LFAU_15 fig_6-3_AU15 "AU 15, lip corner depressor"
+panels 12L LFAU_12L fig_6-6_AU12L "AU 12, left side only"
+# Fig. 5-12: magnitudes.
+for au in 4 12; do
+  series=()
+  captions=()
+  for m in 0 0.25 0.5 0.75 1; do
+    file=$out/animated/${target}_AU${au}_m$m.ply
+    "$mimik" animate "$out/workspace" --source mean --target "$target" --au "$au:$m" -o "$file" --quiet
+    series+=("$file")
+    captions+=(--caption "m = $m")
+  done
+  "$mimik" figure -o "$out/figures/fig_5-12_AU$au.png" --columns 5 --title "AU $au, mean of the other subjects, by magnitude" \
+    --quiet "${series[@]}" "${captions[@]}"
+done
+"$mimik" animate "$out/workspace" --source mean --target "$target" --au 12L --au 12R --au 1 -o "$out/animated/$target.glb" --quiet
+neutrals=()
+captions=()
+for folder in "$out"/database/bs*; do
+  neutrals+=("$folder/$(basename "$folder")_N_N_0.bnt")
+  captions+=(--caption "$(basename "$folder")")
+done
+"$mimik" figure -o "$out/figures/subjects.png" --columns 6 --size 260x320 --quiet "${neutrals[@]}" "${captions[@]}"
+
+step 5 "Score thesis, default and mean beside doing nothing, on every ordered pair of subjects"
+"$mimik" evaluate "$out/workspace" -o "$out/scores"
+
+step 6 "Check the scans that were made, as 'mimik scans --check' does"
+"$mimik" scans "$out/database" --check --no-catalogue --quiet | tail -n 3 || true
+
+printf '\nDone in %d s. Table: %s  Figures: %s  Faces: %s\n' $((SECONDS - begin)) "$out/scores/scores.md" "$out/figures/" "$out/animated/"
