@@ -10,8 +10,8 @@
 #include "geometry/csv.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/landmark_spline.h"
 #include "geometry/point_index.h"
-#include "geometry/thin_plate_spline.h"
 
 namespace mimik::modeling {
 
@@ -109,7 +109,7 @@ std::vector<double> held_weights(const RegionLabels& labels, const preprocessing
     std::vector<double> weights(face.grid.size(), 1.0);
     if (held.empty()) return weights;
 
-    std::vector<Point> known, vertices, from, to;
+    std::vector<Point> known, vertices;
     std::vector<std::size_t> place;
     for (std::size_t v = 0; v < average.grid.size(); ++v)
         if (average.grid.inside(v)) {
@@ -118,12 +118,8 @@ std::vector<double> held_weights(const RegionLabels& labels, const preprocessing
         }
     for (std::size_t v = 0; v < face.grid.size(); ++v)
         vertices.push_back(face.grid.inside(v) ? face.grid.vertices_mm[v] : Point(Point::Zero()));
-    for (const auto& pair : geometry::pair_by_name(face.landmarks, average.landmarks).pairs) {
-        from.push_back(pair.source_mm);
-        to.push_back(pair.target_mm);
-    }
     auto on_average = vertices;
-    geometry::ThinPlateSpline::fit(from, to).apply(on_average, on_average);
+    geometry::landmark_spline(face.landmarks, average.landmarks).apply(on_average, on_average);
     const auto nearest = geometry::PointIndex(known).nearest(on_average);
     std::vector<Point> still;
     std::vector<char> is_held(weights.size(), 0);

@@ -10,9 +10,9 @@
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/landmark_spline.h"
 #include "geometry/parallel.h"
 #include "geometry/surface_index.h"
-#include "geometry/thin_plate_spline.h"
 #include "preprocessing/json_values.h"
 #include "preprocessing/normalisation.h"
 
@@ -162,12 +162,7 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
             for (std::size_t k = first; k < last; ++k) {
                 const Face face = load(begin + k);
                 names[k] = face.id.name();
-                std::vector<Point> from, to;
-                for (const auto& pair : geometry::pair_by_name(face.landmarks, consensus).pairs) {
-                    from.push_back(pair.source_mm);
-                    to.push_back(pair.target_mm);
-                }
-                const auto consensus_from_scan = geometry::ThinPlateSpline::fit(from, to);
+                const auto consensus_from_scan = geometry::landmark_spline(face.landmarks, consensus);
                 std::vector<Point> warped(face.grid.size(), Point::Zero());
                 for (std::size_t v = 0; v < warped.size(); ++v)
                     if (face.grid.inside(v)) warped[v] = face.grid.vertices_mm[v];
