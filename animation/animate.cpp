@@ -8,7 +8,7 @@
 
 #include "animation/combine.h"
 #include "geometry/errors.h"
-#include "geometry/point_index.h"
+#include "preprocessing/control_pairs.h"
 
 namespace mimik::animation {
 
@@ -70,17 +70,11 @@ struct Controls {
 
 Controls carry(const TargetFace& target, const ExpressionModel& model, const AnimationOptions& options,
                std::vector<CarriedPoint>* points, std::vector<std::string>* remarks) {
-    std::vector<Point> source, image;
-    std::vector<std::string> names;
-    for (const auto& pair : geometry::pair_by_name(model.landmarks, target.landmarks()).pairs) {
-        if (std::any_of(source.begin(), source.end(),
-                        [&](const Point& p) { return (p - pair.source_mm).norm() < 1e-6; }))
-            continue;  // two landmarks on one vertex (closed lips): the first speaks for both
-        source.push_back(pair.source_mm);
-        image.push_back(pair.target_mm);
-        names.push_back(pair.name);
-    }
-    const auto target_from_model = geometry::ThinPlateSpline::fit(source, image, {.kernel = options.kernel}, names);
+    const preprocessing::ControlPairs pairs(model.landmarks, target.landmarks());
+    if (remarks)
+        for (const auto& merged : pairs.merged())
+            remarks->push_back(fmt::format("{}: landmark {}", model.expression, merged));
+    const auto target_from_model = pairs.fit({.kernel = options.kernel});
 
     double ratio = 1.0;
     if (options.mouth_ratio && model.moves_lower_face && !model.moves_upper_face && model.mouth_width_mm > 0)

@@ -8,8 +8,8 @@
 #include "geometry/errors.h"
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
-#include "geometry/thin_plate_spline.h"
 #include "modeling/control_points.h"
+#include "preprocessing/control_pairs.h"
 
 namespace mimik::evaluation {
 
@@ -20,15 +20,6 @@ using preprocessing::Face;
 
 namespace {
 
-geometry::ThinPlateSpline landmark_spline(const geometry::Landmarks& from, const geometry::Landmarks& to) {
-    std::vector<Point> source, target;
-    for (const auto& pair : geometry::pair_by_name(from, to).pairs) {
-        source.push_back(pair.source_mm);
-        target.push_back(pair.target_mm);
-    }
-    return geometry::ThinPlateSpline::fit(source, target);
-}
-
 constexpr double rim_mm = 5.0;  // five cells beyond the average face's border: no zone is known there
 
 }  // namespace
@@ -37,7 +28,7 @@ std::vector<Point> average_vertices_on(const AverageFace& average, const Face& f
     std::vector<Point> vertices;
     for (std::size_t v = 0; v < average.grid.size(); ++v)
         vertices.push_back(average.grid.inside(v) ? average.grid.vertices_mm[v] : Point(Point::Zero()));
-    landmark_spline(average.landmarks, face.landmarks).apply(vertices, vertices);
+    preprocessing::landmark_spline(average.landmarks, face.landmarks).apply(vertices, vertices);
     return vertices;
 }
 
@@ -97,7 +88,7 @@ std::vector<char> carry_zone(const ActiveZone& zone, const AverageFace& average,
     std::vector<Point> vertices;
     for (std::size_t v = 0; v < face.grid.size(); ++v)
         vertices.push_back(face.grid.inside(v) ? face.grid.vertices_mm[v] : Point(Point::Zero()));
-    landmark_spline(face.landmarks, average.landmarks).apply(vertices, vertices);
+    preprocessing::landmark_spline(face.landmarks, average.landmarks).apply(vertices, vertices);
     const auto nearest = index.nearest(vertices);
     std::vector<char> active(face.grid.size(), 0);
     for (std::size_t v = 0; v < active.size(); ++v)

@@ -27,7 +27,7 @@ Pooled pooled(const MethodScores& row) {
     return total;
 }
 
-std::string optional_number(double value) { return value < 0 ? "" : fmt::format("{:.3f}", value); }
+std::string optional_number(double value) { return value < 0 ? "" : fmt::format("{:.6f}", value); }
 
 }  // namespace
 
@@ -80,7 +80,8 @@ std::string to_markdown(const ExperimentReport& report) {
         text += "\n";
     }
     if (!report.failures.empty()) {
-        text += fmt::format("\n{} case(s) without an answer, scored as doing nothing:\n\n", report.failures.size());
+        text += fmt::format("\n{} failure(s); a case without an answer is scored as doing nothing:\n\n",
+                            report.failures.size());
         for (const auto& failure : report.failures) text += "- " + failure + "\n";
     }
     return text;

@@ -36,6 +36,7 @@ struct ModelOptions {
     /// The thesis as printed: affine frame, r^2 ln r^2, no anchors, muscle and wrinkle points, nearest vertices.
     [[nodiscard]] static ModelOptions thesis();
     void check() const;
+    bool operator==(const ModelOptions&) const = default;
 };
 
 /// One control point of a model: where it is on the model's own neutral face, and where the expression takes it.
