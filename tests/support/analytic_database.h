@@ -27,13 +27,15 @@ inline void write_analytic_scan(const std::filesystem::path& root, const std::st
                         database::to_bosphorus_labels(geometry::transformed(shape.landmarks(), pose)));
 }
 
+inline constexpr double analytic_scales[] = {0.95, 1.0, 1.08}, analytic_smile_mm = 6;
+
 /// Three subjects of other sizes, each with a neutral scan and a smile (AU 12) in another pose.
 inline void write_analytic_database(const std::filesystem::path& root) {
-    constexpr double scales[] = {0.95, 1.0, 1.08};
     for (int k = 0; k < 3; ++k) {
         const std::string subject = "bs00" + std::to_string(k);
-        write_analytic_scan(root, subject + "_N_N_0", {scales[k], 0}, analytic_pose(2 * k));
-        write_analytic_scan(root, subject + "_LFAU_12_0", {scales[k], 6}, analytic_pose(2 * k + 1));
+        write_analytic_scan(root, subject + "_N_N_0", {analytic_scales[k], 0}, analytic_pose(2 * k));
+        write_analytic_scan(root, subject + "_LFAU_12_0", {analytic_scales[k], analytic_smile_mm},
+                            analytic_pose(2 * k + 1));
     }
 }
 
