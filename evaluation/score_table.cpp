@@ -118,8 +118,9 @@ std::string to_json(const ExperimentReport& report) {
                                   {"cases", s.cases},
                                   {"worse_than_nothing", s.worse_than_nothing},
                                   {"left_out_vertices", s.left_out_vertices}};
-            scores[expression]["true_error_mm"] =
-                s.true_error_mm < 0 ? nlohmann::json() : nlohmann::json(s.true_error_mm);
+            const auto known = [](double value) { return value < 0 ? nlohmann::json() : nlohmann::json(value); };
+            scores[expression]["true_error_mm"] = known(s.true_error_mm);
+            scores[expression]["nothing_true_mm"] = known(s.nothing_true_mm);
         }
         rows.push_back({{"method", row.method},
                         {"kind", kind_name(row.kind)},
