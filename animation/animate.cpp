@@ -8,8 +8,7 @@
 
 #include "animation/combine.h"
 #include "geometry/errors.h"
-#include "geometry/landmark_spline.h"
-#include "geometry/point_index.h"
+#include "preprocessing/control_pairs.h"
 
 namespace mimik::animation {
 
@@ -74,8 +73,11 @@ struct Controls {
 
 Controls carry(const TargetFace& target, const ExpressionModel& model, const AnimationOptions& options,
                std::vector<CarriedPoint>* points, std::vector<std::string>* remarks) {
-    const auto target_from_model = geometry::landmark_spline(
-        model.landmarks, target.landmarks(), {.kernel = options.kernel, .smoothing = options.landmark_smoothing});
+    const preprocessing::ControlPairs pairs(model.landmarks, target.landmarks());
+    if (remarks)
+        for (const auto& merged : pairs.merged())
+            remarks->push_back(fmt::format("{}: landmark {}", model.expression, merged));
+    const auto target_from_model = pairs.fit({.kernel = options.kernel, .smoothing = options.landmark_smoothing});
 
     double ratio = 1.0;
     if (options.mouth_ratio && model.moves_lower_face && !model.moves_upper_face && model.mouth_width_mm > 0)

@@ -51,7 +51,7 @@ public:
     [[nodiscard]] const geometry::Transform& average_from_scan() const { return average_from_scan_; }
     [[nodiscard]] const geometry::Landmarks& landmarks() const { return landmarks_; }  ///< average frame
     [[nodiscard]] double mouth_width_mm() const { return mouth_width_mm_; }            ///< average frame
-    /// Grid vertices in the average frame; those outside the face are NaN in z and stay where they are.
+    /// Grid vertices in the average frame; those outside the face are NaN and stay where they are.
     [[nodiscard]] std::span<const geometry::Point> vertices_mm() const { return vertices_mm_; }
     [[nodiscard]] const geometry::SurfaceIndex& surface() const { return *surface_; }
     [[nodiscard]] geometry::Point nearest_vertex(const geometry::Point& query_mm) const;

@@ -72,6 +72,9 @@ void write_animated_face(const std::filesystem::path& file, const AnimatedFace& 
                          const ExportOptions& options) {
     const auto extension = lower_extension(file);
     if (extension == ".glb") {
+        if (names.size() != animated.fields_mm.size())
+            throw InputError(fmt::format("{}: {} names for {} expressions; give each morph target its name",
+                                         file.string(), names.size(), animated.fields_mm.size()));
         const auto& grid = target.face().grid;
         const std::vector<Vector> still(grid.size(), Vector::Zero());
         const auto neutral = mesh_of(grid, still, target, options);

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/method_options.h"
@@ -30,13 +31,23 @@ int run(Arguments& arguments) {
     for (const auto& name : arguments.methods) options.methods.push_back(evaluation::method_by_name(name));
     options.reference = !arguments.no_reference;
     options.whole_face = !arguments.no_whole_face;
+    options.check();
     const std::size_t steps = evaluation::experiment_steps(workspace, options);
     if (arguments.dry_run) {
         const auto subjects = workspace.subjects().size();
         const double sources = options.max_sources > 0 ? options.max_sources : static_cast<double>(subjects) - 1;
         const double cases = static_cast<double>(steps) * sources * static_cast<double>(options.methods.size());
-        std::cout << fmt::format("about {:.0f} transfers, {:.0f} s on one core, less than 1 MB of tables\n", cases,
-                                 0.03 * cases);
+        const double seconds = 0.03 * cases;
+        if (arguments.common.json)
+            std::cout << nlohmann::json{{"schema", 1},
+                                        {"dry_run", true},
+                                        {"transfers", cases},
+                                        {"seconds_on_one_core", seconds}}
+                             .dump(1)
+                      << '\n';
+        else
+            std::cout << fmt::format("about {:.0f} transfers, {:.0f} s on one core, less than 1 MB of tables\n", cases,
+                                     seconds);
         return exit_done;
     }
     evaluation::ExperimentReport report;

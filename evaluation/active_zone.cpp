@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "geometry/errors.h"
-#include "geometry/landmark_spline.h"
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
 #include "modeling/control_points.h"
+#include "preprocessing/control_pairs.h"
 
 namespace mimik::evaluation {
 
@@ -28,7 +28,7 @@ std::vector<Point> average_vertices_on(const AverageFace& average, const Face& f
     std::vector<Point> vertices;
     for (std::size_t v = 0; v < average.grid.size(); ++v)
         vertices.push_back(average.grid.inside(v) ? average.grid.vertices_mm[v] : Point(Point::Zero()));
-    geometry::landmark_spline(average.landmarks, face.landmarks).apply(vertices, vertices);
+    preprocessing::landmark_spline(average.landmarks, face.landmarks).apply(vertices, vertices);
     return vertices;
 }
 
@@ -88,7 +88,7 @@ std::vector<char> carry_zone(const ActiveZone& zone, const AverageFace& average,
     std::vector<Point> vertices;
     for (std::size_t v = 0; v < face.grid.size(); ++v)
         vertices.push_back(face.grid.inside(v) ? face.grid.vertices_mm[v] : Point(Point::Zero()));
-    geometry::landmark_spline(face.landmarks, average.landmarks).apply(vertices, vertices);
+    preprocessing::landmark_spline(face.landmarks, average.landmarks).apply(vertices, vertices);
     const auto nearest = index.nearest(vertices);
     std::vector<char> active(face.grid.size(), 0);
     for (std::size_t v = 0; v < active.size(); ++v)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "animation/animate.h"
+#include "evaluation/case_score.h"
 #include "modeling/expression_model.h"
 #include "modeling/facs_catalogue.h"
 #include "preprocessing/workspace.h"
@@ -38,21 +39,7 @@ struct ExperimentOptions {
     bool reference = true;   ///< true-field reference rows, where the database has a truth
     bool whole_face = true;  ///< second figure over all measured vertices
     int max_sources = 0;     ///< per target, the next ones in the list after it; 0 = all other subjects
-};
-
-/// One method on one expression.
-struct Score {
-    double explained = 0.0;         ///< 1 - sum err(method) / sum err(doing nothing), active zone
-    double explained_median = 0.0;  ///< of 1 - err / err(nothing) over the cases
-    double explained_whole = 0.0;   ///< the same over the whole face
-    double error_mm = 0.0;          ///< mean over cases
-    double nothing_mm = 0.0;
-    double true_error_mm = -1.0;  ///< mean 3D distance to the true position of the same material point; -1: no truth
-    double nothing_true_mm = -1.0;
-    double largest_step_mm = 0.0;  ///< largest crack between neighbouring vertices, mean over cases
-    std::size_t cases = 0;
-    std::size_t worse_than_nothing = 0;
-    std::size_t left_out_vertices = 0;  ///< scored as doing nothing
+    void check() const;      ///< throws InputError
 };
 
 struct MethodScores {
@@ -72,13 +59,14 @@ struct ExperimentReport {
     std::string zones;      ///< "truth" or "catalogue"
     std::string alignment;  ///< "true pose" or "ICP on the stable region"
     std::vector<MethodScores> rows;
-    std::vector<std::string> failures;  ///< cases that gave no answer, with the reason; scored as doing nothing
+    std::vector<std::string> failures;  ///< what gave no answer, with the reason
     double seconds = 0.0;
 };
 
 /// Scores methods on every ordered pair source -> target of a workspace, as docs/algorithms/scoring.md defines it.
-/// Subjects that must not be shown take part in no case. @throws InputError if fewer than 3 subjects show an
-/// expression.
+/// Subjects that must not be shown take part in no case. A case whose method gives no answer counts as doing nothing; a
+/// face that cannot be read takes part in no case; both are listed. Memory: one face per subject, whatever the number
+/// of expressions. @throws InputError if fewer than 3 subjects show an expression.
 [[nodiscard]] ExperimentReport run_experiment(const preprocessing::Workspace& workspace,
                                               const modeling::FacsCatalogue& catalogue,
                                               const ExperimentOptions& options = {},

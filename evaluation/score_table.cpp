@@ -27,7 +27,7 @@ Pooled pooled(const MethodScores& row) {
     return total;
 }
 
-std::string optional_number(double value) { return value < 0 ? "" : fmt::format("{:.3f}", value); }
+std::string optional_number(double value) { return value < 0 ? "" : fmt::format("{:.6f}", value); }
 
 }  // namespace
 
@@ -80,7 +80,8 @@ std::string to_markdown(const ExperimentReport& report) {
         text += "\n";
     }
     if (!report.failures.empty()) {
-        text += fmt::format("\n{} case(s) without an answer, scored as doing nothing:\n\n", report.failures.size());
+        text += fmt::format("\n{} failure(s); a case without an answer is scored as doing nothing:\n\n",
+                            report.failures.size());
         for (const auto& failure : report.failures) text += "- " + failure + "\n";
     }
     return text;
@@ -117,8 +118,9 @@ std::string to_json(const ExperimentReport& report) {
                                   {"cases", s.cases},
                                   {"worse_than_nothing", s.worse_than_nothing},
                                   {"left_out_vertices", s.left_out_vertices}};
-            scores[expression]["true_error_mm"] =
-                s.true_error_mm < 0 ? nlohmann::json() : nlohmann::json(s.true_error_mm);
+            const auto known = [](double value) { return value < 0 ? nlohmann::json() : nlohmann::json(value); };
+            scores[expression]["true_error_mm"] = known(s.true_error_mm);
+            scores[expression]["nothing_true_mm"] = known(s.nothing_true_mm);
         }
         rows.push_back({{"method", row.method},
                         {"kind", kind_name(row.kind)},

@@ -11,13 +11,13 @@
 #include "geometry/file.h"
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
+#include "preprocessing/control_pairs.h"
 #include "preprocessing/json_values.h"
 
 namespace mimik::modeling {
 
 using geometry::Landmarks;
 using geometry::Point;
-using geometry::ThinPlateSpline;
 using geometry::Vector;
 using preprocessing::AverageFace;
 using preprocessing::Face;
@@ -75,27 +75,6 @@ private:
     mutable std::optional<geometry::PointIndex> index_;
 };
 
-/// Pairs by name; two landmarks on one vertex (closed lips) would make the system singular: the first speaks for both.
-struct Correspondences {
-    std::vector<Point> from, to;
-    std::vector<std::string> names;
-
-    void add(const std::string& name, const Point& source, const Point& target) {
-        for (const auto& p : from)
-            if ((p - source).norm() < 1e-6) return;
-        from.push_back(source);
-        to.push_back(target);
-        names.push_back(name);
-    }
-    void add(const Landmarks& source, const Landmarks& target) {
-        for (const auto& pair : geometry::pair_by_name(source, target).pairs)
-            add(pair.name, pair.source_mm, pair.target_mm);
-    }
-    [[nodiscard]] ThinPlateSpline spline(const ModelOptions& options) const {
-        return ThinPlateSpline::fit(from, to, {.kernel = options.kernel, .smoothing = options.smoothing}, names);
-    }
-};
-
 double mouth_width(const Landmarks& landmarks) {
     return (landmarks.position_mm("mouth_corner_left") - landmarks.position_mm("mouth_corner_right")).norm();
 }
@@ -113,6 +92,7 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
                                    const ModelOptions& options) {
     options.check();
     const auto units = catalogue.resolve(expression);
+    const geometry::ThinPlateSplineOptions spline{.kernel = options.kernel, .smoothing = options.smoothing};
     ExpressionModel model;
     model.expression = expression_name(catalogue, expression);
     model.moves_upper_face = model.moves_lower_face = false;
@@ -136,9 +116,7 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
         const geometry::SurfaceIndex average_surface(average.grid.vertices_mm, geometry::triangles(average.grid));
         placed = place_controls(catalogue, expression, average.landmarks, average_surface);
         model.landmarks = average.landmarks;
-        Correspondences pairs;
-        pairs.add(average.landmarks, neutral_marks);
-        const auto source_from_average = pairs.spline(options);
+        const auto source_from_average = preprocessing::landmark_spline(average.landmarks, neutral_marks, spline);
         for (const auto& control : placed.controls)
             controls_on_source.push_back(
                 neutral_surface.nearest(source_from_average(control.position_mm), options.snap_to_vertices));
@@ -157,12 +135,13 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
     model.mouth_width_mm = mouth_width(model.landmarks);
     model.left_out = placed.left_out;
 
-    Correspondences pairs;
-    pairs.add(neutral_marks, expressive_marks);
+    preprocessing::ControlPairs pairs(neutral_marks, expressive_marks);
+    for (const auto& merged : pairs.merged())
+        model.left_out.push_back(fmt::format("{}: landmark {}", neutral.id.name(), merged));
     if (options.anchors)
         for (std::size_t k = 0; k < placed.anchors.size(); ++k)
             pairs.add(placed.anchors[k].name, anchors_on_source[k], anchors_on_source[k]);
-    const auto expressive_from_neutral = pairs.spline(options);
+    const auto expressive_from_neutral = pairs.fit(spline);
 
     for (std::size_t k = 0; k < placed.controls.size(); ++k) {
         const auto& control = placed.controls[k];
@@ -194,6 +173,9 @@ ExpressionModel mean_expression(std::span<const ExpressionModel> models) {
                     fmt::format("{}: models of {} and {} stand on different faces; model them on the average face",
                                 mean.expression, mean.sources.front(), model.sources.front()));
         mean.sources.insert(mean.sources.end(), model.sources.begin(), model.sources.end());
+        for (const auto& reason : model.left_out)
+            if (std::find(mean.left_out.begin(), mean.left_out.end(), reason) == mean.left_out.end())
+                mean.left_out.push_back(reason);
         for (const auto& point : model.points) {
             const auto found = place.find(point.name);
             if (found == place.end()) {
@@ -236,7 +218,7 @@ void write_expression_model(const std::filesystem::path& file, const ExpressionM
                                      {"landmarks", to_json(model.landmarks)},
                                      {"points", points},
                                      {"left_out", model.left_out}};
-    geometry::write_atomically(file, document.dump(1) + "\n");
+    geometry::write_atomically(file, preprocessing::json_text(document));
 }
 
 ExpressionModel read_expression_model(const std::filesystem::path& file) {

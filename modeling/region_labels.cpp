@@ -10,8 +10,8 @@
 #include "geometry/csv.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
-#include "geometry/landmark_spline.h"
 #include "geometry/point_index.h"
+#include "preprocessing/control_pairs.h"
 
 namespace mimik::modeling {
 
@@ -119,7 +119,7 @@ std::vector<double> held_weights(const RegionLabels& labels, const preprocessing
     for (std::size_t v = 0; v < face.grid.size(); ++v)
         vertices.push_back(face.grid.inside(v) ? face.grid.vertices_mm[v] : Point(Point::Zero()));
     auto on_average = vertices;
-    geometry::landmark_spline(face.landmarks, average.landmarks).apply(on_average, on_average);
+    preprocessing::landmark_spline(face.landmarks, average.landmarks).apply(on_average, on_average);
     const auto nearest = geometry::PointIndex(known).nearest(on_average);
     std::vector<Point> still;
     std::vector<char> is_held(weights.size(), 0);

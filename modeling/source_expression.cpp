@@ -33,6 +33,9 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
         const auto neutral = workspace.face(workspace.neutral(subject));
         return measure_expression(catalogue, expression, workspace.average(), neutral, workspace.face(id), options);
     };
+    if (workspace.hidden(source.subject))
+        throw InputError(
+            fmt::format("subject '{}' stands in unallowed_subjects.txt; choose another source", source.subject));
     if (source.subject != "mean") {
         (void)workspace.neutral(source.subject);  // names the subjects there are if this one is none of them
         const auto id = scan_that_shows(workspace, source.subject, expression);
@@ -50,7 +53,9 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
     std::vector<std::string> subjects;
     std::vector<ScanId> ids;
     for (const auto& subject : workspace.subjects()) {
-        if (std::find(source.excluded.begin(), source.excluded.end(), subject) != source.excluded.end()) continue;
+        if (workspace.hidden(subject) ||
+            std::find(source.excluded.begin(), source.excluded.end(), subject) != source.excluded.end())
+            continue;
         if (const auto id = scan_that_shows(workspace, subject, expression)) {
             subjects.push_back(subject);
             ids.push_back(*id);

@@ -11,13 +11,13 @@ namespace mimik::modeling {
 
 /// Where an expression comes from: one subject, or the mean of all subjects that show it.
 struct ExpressionSource {
-    std::string subject;  ///< "bs003"; or "mean"
-    std::vector<std::string>
-        excluded;  ///< subjects that a mean leaves out: the target, and those who must not be shown
+    std::string subject;                ///< "bs003"; or "mean"
+    std::vector<std::string> excluded;  ///< subjects that a mean leaves out: the target
 };
 
 /// The model of an expression ("12", "12L", "HAPPY") from the scans of a workspace. A one-sided AU is taken from the
 /// subject's one-sided scan if there is one, else from that side of the two-sided scan (thesis 6, asymmetric AUs).
+/// Subjects who must not be shown (unallowed_subjects.txt) are never a source, nor part of a mean.
 /// @throws InputError if a subject, its neutral or its expression is missing; the message lists what there is.
 [[nodiscard]] ExpressionModel model_from_workspace(const preprocessing::Workspace& workspace,
                                                    const FacsCatalogue& catalogue, const std::string& expression,

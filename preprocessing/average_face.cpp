@@ -10,9 +10,9 @@
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
-#include "geometry/landmark_spline.h"
 #include "geometry/parallel.h"
 #include "geometry/surface_index.h"
+#include "preprocessing/control_pairs.h"
 #include "preprocessing/json_values.h"
 #include "preprocessing/normalisation.h"
 
@@ -29,6 +29,12 @@ void AverageFaceOptions::check() const {
         throw InputError(fmt::format("average face of {} x {}; give 10 to 4000 each", rows, cols));
     if (!(min_share > 0 && min_share <= 1))
         throw InputError(fmt::format("min_share is {}; give a share above 0 and up to 1", min_share));
+    if (!(half_width > 0) || !(above_eyes > 0) || !(below_chin > -0.5))
+        throw InputError(
+            fmt::format("average face crop of half_width {}, above_eyes {}, below_chin {} outer-eye distances holds no "
+                        "face; give positive ones",
+                        half_width, above_eyes, below_chin));
+    if (max_iterations < 1) throw InputError(fmt::format("max_iterations is {}; give 1 or more", max_iterations));
 }
 
 namespace {
@@ -48,13 +54,27 @@ Landmarks mean_of(const std::vector<Landmarks>& sets, const std::vector<std::str
     return Landmarks(std::move(mean));
 }
 
-double size_of(const Landmarks& marks) {
-    Point centre = Point::Zero();
-    for (const auto& mark : marks.all()) centre += mark.position_mm;
-    centre /= static_cast<double>(marks.size());
-    double sum = 0;
-    for (const auto& mark : marks.all()) sum += (mark.position_mm - centre).squaredNorm();
-    return std::sqrt(sum / static_cast<double>(marks.size()));
+Landmarks only(const Landmarks& set, const std::vector<std::string>& names) {
+    std::vector<Landmark> marks;
+    for (const auto& name : names)
+        if (const auto* mark = set.find(name)) marks.push_back(*mark);
+    return Landmarks(std::move(marks));
+}
+
+/// How much larger `set` is than `consensus`, by the root mean square radius of the landmarks that both have.
+double size_ratio(const Landmarks& set, const Landmarks& consensus) {
+    const auto pairs = geometry::pair_by_name(set, consensus).pairs;
+    Point source = Point::Zero(), target = Point::Zero();
+    for (const auto& pair : pairs) {
+        source += pair.source_mm / static_cast<double>(pairs.size());
+        target += pair.target_mm / static_cast<double>(pairs.size());
+    }
+    double of_set = 0, of_consensus = 0;
+    for (const auto& pair : pairs) {
+        of_set += (pair.source_mm - source).squaredNorm();
+        of_consensus += (pair.target_mm - target).squaredNorm();
+    }
+    return std::sqrt(of_set / of_consensus);
 }
 
 Landmarks mirrored(const Landmarks& marks) {
@@ -84,23 +104,29 @@ Landmarks consensus_landmarks(std::span<const Landmarks> sets, int max_iteration
                         "needed (docs/formats.md lists the names)",
                         names.size()));
 
-    // Orientation and size to end with: those of the input on average. Each set is centred first.
-    std::vector<Landmarks> aligned;
-    double mean_size = 0;
+    // Further marks (ear lobes) and missing ones must shift neither the centre nor the size.
+    std::vector<Landmarks> as_marked, aligned;
     for (const auto& set : sets) {
+        as_marked.push_back(only(set, names));
+        if (as_marked.back().size() < 3)
+            throw InputError(
+                fmt::format("a neutral face has {} of the {} landmarks that the average is made of; three are needed",
+                            as_marked.back().size(), names.size()));
         Point centre = Point::Zero();
-        for (const auto& mark : set.all()) centre += mark.position_mm;
-        aligned.push_back(
-            geometry::transformed(set, Transform(Eigen::Translation3d(-centre / static_cast<double>(set.size())))));
-        mean_size += size_of(set) / static_cast<double>(sets.size());
+        for (const auto& mark : as_marked.back().all()) centre += mark.position_mm;
+        centre /= static_cast<double>(as_marked.back().size());
+        aligned.push_back(geometry::transformed(as_marked.back(), Transform(Eigen::Translation3d(-centre))));
     }
+    // Orientation to end with: that of the input on average.
     const Landmarks upright = mean_of(aligned, names);
 
     Landmarks consensus = upright;
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
         for (auto& set : aligned) set = geometry::transformed(set, similarity_normalisation(set, consensus));
         Landmarks next = mean_of(aligned, names);
-        next = geometry::transformed(next, Transform(Eigen::Scaling(mean_size / size_of(next))));  // else it shrinks
+        double ratio = 0;  // mean size of the input over that of the mean shape, which shrinks without it
+        for (const auto& set : as_marked) ratio += size_ratio(set, next) / static_cast<double>(as_marked.size());
+        next = geometry::transformed(next, Transform(Eigen::Scaling(ratio)));
         double change = 0;
         for (const auto& name : names)
             change = std::max(change, (next.position_mm(name) - consensus.position_mm(name)).norm());
@@ -162,7 +188,7 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
             for (std::size_t k = first; k < last; ++k) {
                 const Face face = load(begin + k);
                 names[k] = face.id.name();
-                const auto consensus_from_scan = geometry::landmark_spline(face.landmarks, consensus);
+                const auto consensus_from_scan = landmark_spline(face.landmarks, consensus);
                 std::vector<Point> warped(face.grid.size(), Point::Zero());
                 for (std::size_t v = 0; v < warped.size(); ++v)
                     if (face.grid.inside(v)) warped[v] = face.grid.vertices_mm[v];
@@ -227,7 +253,7 @@ void write_average_face(const std::filesystem::path& stem, const AverageFace& av
         {"scans", average.scans},
         {"consensus_rms_mm", average.consensus_rms_mm},
         {"fingerprint", fingerprint}};
-    geometry::write_atomically(json_file, document.dump(1) + "\n");
+    geometry::write_atomically(json_file, json_text(document));
 }
 
 AverageFace read_average_face(const std::filesystem::path& stem, std::string* fingerprint) {

@@ -23,9 +23,9 @@ struct CleaningReport {
 };
 
 /// Leaves out spikes and parts that do not hang together with the face. In an organised scan the points left out become
-/// NaN; a cloud or mesh loses them (and the faces that used them). Neighbours are the lattice's eight, or for a cloud
-/// the points within three times its median spacing. Of the parts, the largest and those of at least `min_part` of it
-/// stay, but a part that lies wholly behind the largest by more than 150 mm is background whatever its size.
+/// NaN; a cloud or mesh loses them (and the faces that used them). Neighbours are the lattice's 24 (two rings), or for
+/// a cloud the points within three times its median spacing. Of the parts, the largest and those of at least `min_part`
+/// of it stay, but a part that lies wholly behind the largest by more than 150 mm is background whatever its size.
 /// @throws InputError if nothing is left.
 [[nodiscard]] geometry::RangeScan clean(const geometry::RangeScan& scan, const CleaningOptions& options = {},
                                         CleaningReport* report = nullptr);

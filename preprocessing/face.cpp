@@ -68,7 +68,11 @@ geometry::QuadGrid read_grid(const std::filesystem::path& file, int rows, int co
     if (grid.origin.size() != grid.size())
         throw InputError(fmt::format("{}: property 'origin' is missing; run 'mimik preprocess' again", file.string()));
     for (std::size_t v = 0; v < grid.size(); ++v)
-        if (!grid.inside(v)) grid.vertices_mm[v].z() = std::numeric_limits<double>::quiet_NaN();
+        if (!grid.inside(v)) {  // as gridding leaves them
+            grid.vertices_mm[v].z() = std::numeric_limits<double>::quiet_NaN();
+            if (!grid.texture_coordinates.empty())
+                grid.texture_coordinates[v].setConstant(std::numeric_limits<double>::quiet_NaN());
+        }
     return grid;
 }
 
@@ -93,7 +97,7 @@ void write_face(const std::filesystem::path& stem, const Face& face) {
         {"alignment_rms_mm", face.alignment_rms_mm},
         {"remarks", face.remarks},
     };
-    geometry::write_atomically(with_suffix(stem, ".json"), document.dump(1) + "\n");
+    geometry::write_atomically(with_suffix(stem, ".json"), json_text(document));
 }
 
 Face read_face(const std::filesystem::path& stem) {

@@ -56,6 +56,12 @@ inline geometry::Landmarks landmarks_from_json(const nlohmann::json& list) {
     return geometry::Landmarks(std::move(marks));
 }
 
+/// As we write it: one value a line; bytes that are no UTF-8 (file names may hold any) become the replacement character
+/// instead of an exception at the end of a long run.
+inline std::string json_text(const nlohmann::json& document) {
+    return document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
 /// Reads a file of ours: schema 1, and every fault of the JSON becomes an InputError that names the file.
 template <typename Value, typename Parse>
 Value from_json_file(const std::filesystem::path& file, const Parse& parse) {
@@ -66,6 +72,10 @@ Value from_json_file(const std::filesystem::path& file, const Parse& parse) {
             throw InputError(
                 fmt::format("{}: schema is {}; this version of Mimik reads schema 1", file.string(), schema));
         return parse(document);
+    } catch (const InputError& e) {
+        const std::string what = e.what();  // a value type's own complaint names no file
+        if (what.find(file.parent_path().string()) == 0) throw;
+        throw InputError(fmt::format("{}: {}", file.string(), what));
     } catch (const nlohmann::json::exception& e) {
         throw InputError(fmt::format("{}: {}; the file is damaged or was edited by hand", file.string(), e.what()));
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -34,11 +35,21 @@ std::string upper(std::string text) {
 fs::path face_stem(const fs::path& root, const ScanId& id) { return root / "faces" / id.subject / id.name(); }
 fs::path average_stem(const fs::path& root) { return root / "average" / "average_face"; }
 
+/// Part of every fingerprint: raise it when the steps give other numbers for the same scan and options.
+constexpr int steps_version = 1;
+
 std::string describe(const PreprocessOptions& o) {
-    return fmt::format("clean {} {} {} grid {} {} edge {} {} lattice {} icp {} {} {}", o.cleaning.spike_mm,
-                       o.cleaning.max_jump_mm, o.cleaning.min_part, o.gridding.rows, o.gridding.cols,
-                       o.gridding.max_edge_mm.value_or(0), o.gridding.max_edge_spacings, o.gridding.use_lattice,
-                       o.alignment.trim, o.alignment.max_distance_mm, o.alignment.max_iterations);
+    return fmt::format("steps {} clean {} {} {} grid {} {} edge {} {} lattice {} icp {} {} {} {} {} {}", steps_version,
+                       o.cleaning.spike_mm, o.cleaning.max_jump_mm, o.cleaning.min_part, o.gridding.rows,
+                       o.gridding.cols, o.gridding.max_edge_mm.value_or(0), o.gridding.max_edge_spacings,
+                       o.gridding.use_lattice, o.alignment.trim, o.alignment.max_distance_mm,
+                       o.alignment.max_iterations, o.alignment.max_points, o.alignment.stop_rotation_deg,
+                       o.alignment.stop_shift_mm);
+}
+
+std::string describe(const AverageFaceOptions& o) {
+    return fmt::format("average {} {} {} {} {} {} {}", o.rows, o.cols, o.half_width, o.above_eyes, o.below_chin,
+                       o.min_share, o.max_iterations);
 }
 
 /// A file that did not change has the same size and time: cheap to ask for thousands of scans.
@@ -51,34 +62,72 @@ std::string stamp(const fs::path& file) {
 
 std::string stamp(const ScanEntry& entry) { return stamp(entry.scan_file) + " " + stamp(entry.landmarks_file); }
 
-fs::path fingerprint_file(const fs::path& stem) {
-    auto file = stem;
-    file += ".done";
-    return file;
+fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
+
+/// What `.done` says of a face: what it was made from, and how long its two files are, so that a file that was deleted
+/// or cut short is noticed.
+std::string done_text(const fs::path& stem, const std::string& fingerprint) {
+    const auto size = [&](const char* suffix) {
+        std::error_code error;
+        const auto bytes = fs::file_size(with_suffix(stem, suffix), error);
+        return error ? std::string("absent") : fmt::format("{}", bytes);
+    };
+    return fmt::format("{}\nfiles {} {}\n", fingerprint, size(".ply"), size(".json"));
 }
 
 bool finished(const fs::path& stem, const std::string& fingerprint) {
+    const auto file = with_suffix(stem, ".done");
     std::error_code error;
-    return fs::exists(fingerprint_file(stem), error) && geometry::read_text(fingerprint_file(stem)) == fingerprint;
+    if (!fs::is_regular_file(file, error)) return false;
+    try {
+        return geometry::read_text(file) == done_text(stem, fingerprint);
+    } catch (const InputError&) {
+        return false;  // unreadable: made again
+    }
+}
+
+/// The mark goes first and comes last: a run that ends in between leaves a face that counts as missing.
+void write_finished(const fs::path& stem, const Face& face, const std::string& fingerprint) {
+    std::error_code ignored;
+    fs::remove(with_suffix(stem, ".done"), ignored);
+    write_face(stem, face);
+    geometry::write_atomically(with_suffix(stem, ".done"), done_text(stem, fingerprint));
+}
+
+/// The face of an earlier run, if it is whole and was made from the same.
+std::optional<Face> read_finished(const fs::path& stem, const std::string& fingerprint) {
+    if (!finished(stem, fingerprint)) return std::nullopt;
+    try {
+        return read_face(stem);
+    } catch (const InputError&) {
+        return std::nullopt;  // damaged: made again
+    }
 }
 
 }  // namespace
 
 std::vector<char> stable_on_every_face(const Face& neutral) {
-    const auto& marks = neutral.landmarks;
+    const auto marks = geometry::transformed(neutral.landmarks, neutral.average_from_scan);
     const Point left = marks.position_mm("eye_outer_left"), right = marks.position_mm("eye_outer_right");
     const Point middle = 0.5 * (left + right);
     const double eyes_mm = (left - right).norm();
     std::vector<char> stable(neutral.grid.size(), 0);
     for (std::size_t v = 0; v < stable.size(); ++v) {
         if (!neutral.grid.measured(v)) continue;
-        const Point& p = neutral.grid.vertices_mm[v];
+        const Point p = neutral.average_from_scan * neutral.grid.vertices_mm[v];
         const double x = std::abs(p.x() - middle.x()) / eyes_mm, y = (p.y() - middle.y()) / eyes_mm;
         const bool nose_bridge = x < 0.22 && y > -0.30 && y < 0.10;
         const bool temple = x > 0.50 && x < 0.75 && y > -0.15 && y < 0.40;
-        stable[v] = nose_bridge || temple ? 1 : 0;
+        stable[v] = nose_bridge || temple;
     }
     return stable;
+}
+
+void PreprocessOptions::check() const {
+    cleaning.check();
+    gridding.check();
+    average.check();
+    alignment.check();
 }
 
 Face preprocess_scan(const database::LoadedScan& loaded, const PreprocessOptions& options, CleaningReport* cleaning,
@@ -111,175 +160,273 @@ Face preprocess_scan(const database::LoadedScan& loaded, const PreprocessOptions
 }
 
 std::vector<const ScanEntry*> selected_scans(const database::ScanDatabase& database, const PreprocessOptions& options) {
-    static const std::set<std::string> groups = {"N", "E", "UFAU", "LFAU", "CAU"};
-    std::set<std::string> subjects(options.subjects.begin(), options.subjects.end()), codes;
-    for (const auto& code : options.codes) codes.insert(upper(code));
+    static const std::set<std::string> posed = {"YR", "PR", "CR", "O", "IGN"};
+    std::set<std::string> subjects, codes, unseen_subjects, unseen_codes;
+    for (const auto& subject : options.subjects) subjects.insert(upper(subject));
+    for (const auto& code : options.codes) {
+        const auto id = database::parse_expression(code);
+        codes.insert(upper(id ? id->code : code));
+    }
+    unseen_subjects = subjects;
+    unseen_codes = codes;
     std::vector<const ScanEntry*> scans;
     for (const auto& entry : database.scans) {
-        if (!subjects.empty() && !subjects.contains(entry.id.subject)) continue;
-        if (!entry.id.neutral()) {
-            if (codes.empty() ? !groups.contains(entry.id.group) : !codes.contains(upper(entry.id.code))) continue;
-        }
+        const auto subject = upper(entry.id.subject), code = upper(entry.id.code);
+        unseen_codes.erase(code);
+        if (!subjects.empty() && !subjects.contains(subject)) continue;
+        unseen_subjects.erase(subject);
+        if (!entry.id.neutral() && (codes.empty() ? posed.contains(upper(entry.id.group)) : !codes.contains(code)))
+            continue;
         scans.push_back(&entry);
     }
+    if (!unseen_subjects.empty())
+        throw InputError(fmt::format("{}: no subject {}; 'mimik scans' lists what there is", database.root.string(),
+                                     fmt::join(unseen_subjects, ", ")));
+    if (!unseen_codes.empty())
+        throw InputError(fmt::format("{}: no scan of expression {}; 'mimik scans' lists what there is",
+                                     database.root.string(), fmt::join(unseen_codes, ", ")));
+    if (scans.empty())
+        throw InputError(
+            fmt::format("{}: no scan fits the selection; 'mimik scans' lists what there is", database.root.string()));
     return scans;
 }
+
+namespace {
+
+/// One run of preprocess_database: what its two passes share.
+class DatabaseRun {
+public:
+    DatabaseRun(const database::ScanDatabase& database, fs::path root, const PreprocessOptions& options,
+                const StableRegion& stable_region, const std::function<void(const std::string&)>& progress)
+        : database_(database),
+          root_(std::move(root)),
+          options_(options),
+          stable_region_(stable_region),
+          progress_(progress) {
+        std::map<std::string, Subject> by_name;
+        for (const auto* entry : selected_scans(database, options)) by_name[entry->id.subject].scans.push_back(entry);
+        for (auto& [name, subject] : by_name) subjects_.push_back(std::move(subject));
+    }
+
+    PreprocessReport run() {
+        geometry::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t s = begin; s < end; ++s) grid_neutral(subjects_[s]);
+        });
+        prepare_average();
+        geometry::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t s = begin; s < end; ++s) tie_scans(subjects_[s]);
+        });
+        return finish();
+    }
+
+private:
+    struct Subject {
+        std::vector<const ScanEntry*> scans;
+        const ScanEntry* neutral = nullptr;  ///< the first usable one
+        geometry::Landmarks neutral_landmarks;
+        bool fresh = false;                   ///< its neutral was gridded in this run
+        std::set<const ScanEntry*> reported;  ///< neutrals that failed in the first pass
+        std::vector<ScanFailure> failures;    ///< written by the one thread that has this subject
+        std::vector<ScanId> finished;
+        std::size_t preprocessed = 0, up_to_date = 0;
+    };
+
+    static void fail(Subject& subject, const ScanEntry& entry, const std::string& reason) {
+        subject.failures.push_back({entry.id.name(), reason});
+    }
+    void done(const ScanEntry& entry) const {
+        if (progress_) progress_(entry.id.name());
+    }
+    /// From the first change of a face on, the folder is no finished workspace until all are done.
+    void begin_writing() {
+        std::call_once(writing_, [&] {
+            std::error_code ignored;
+            fs::remove(root_ / "workspace.json", ignored);
+        });
+    }
+    [[nodiscard]] std::string neutral_fingerprint(const ScanEntry& entry) const {
+        return describe(options_) + " neutral " + stamp(entry);
+    }
+
+    /// First pass: one neutral per subject, gridded and written. One that fails gives its place to the next.
+    void grid_neutral(Subject& subject) {
+        for (const auto* entry : subject.scans) {
+            if (!entry->id.neutral()) continue;
+            const auto stem = face_stem(root_, entry->id);
+            try {
+                auto face = read_finished(stem, neutral_fingerprint(*entry));
+                if (!face) {
+                    face = preprocess_scan(database::load(*entry), options_);
+                    // Every later step stands on these four landmarks: now is the time to find them missing or flat.
+                    (void)affine_normalisation(face->snapped_landmarks, face->snapped_landmarks);
+                    begin_writing();
+                    write_finished(stem, *face, neutral_fingerprint(*entry));
+                    subject.fresh = true;
+                }
+                subject.neutral_landmarks = face->landmarks;
+                subject.neutral = entry;
+                return;
+            } catch (const std::exception& e) {
+                fail(subject, *entry, e.what());
+                subject.reported.insert(entry);
+                done(*entry);
+            }
+        }
+    }
+
+    void prepare_average() {
+        std::vector<geometry::Landmarks> sets;
+        std::vector<const ScanEntry*> neutrals;
+        average_fingerprint_ = describe(options_) + " " + describe(options_.average);
+        std::string first_reason = "no neutral scan";
+        for (const auto& subject : subjects_) {
+            if (!subject.neutral) {
+                if (!subject.failures.empty() && first_reason == "no neutral scan")
+                    first_reason = subject.failures.front().scan + ": " + subject.failures.front().reason;
+                continue;
+            }
+            neutrals.push_back(subject.neutral);
+            sets.push_back(subject.neutral_landmarks);
+            average_fingerprint_ += " " + subject.neutral->id.name() + " " + stamp(*subject.neutral);
+        }
+        if (neutrals.size() < 2)
+            throw InputError(fmt::format(
+                "{}: {} of {} selected subjects have a usable neutral face, and the average face needs two{}",
+                database_.root.string(), neutrals.size(), subjects_.size(),
+                neutrals.size() == subjects_.size() ? std::string("; select more subjects")
+                                                    : fmt::format(" (the first that has none: {})", first_reason)));
+
+        std::error_code error;
+        if (fs::exists(with_suffix(average_stem(root_), ".json"), error)) {
+            try {
+                std::string found;
+                average_ = read_average_face(average_stem(root_), &found);
+                if (found == average_fingerprint_) return;
+            } catch (const InputError&) {
+                // Damaged: made again below.
+            }
+        }
+        begin_writing();
+        double rms_mm = 0;
+        const auto consensus = consensus_landmarks(sets, options_.average.max_iterations, &rms_mm);
+        average_ = build_average_face(
+            neutrals.size(), [&](std::size_t k) { return read_face(face_stem(root_, neutrals[k]->id)); }, consensus,
+            options_.average);
+        average_.consensus_rms_mm = rms_mm;
+        write_average_face(average_stem(root_), average_, average_fingerprint_);
+        average_ = read_average_face(average_stem(root_));
+    }
+
+    /// Second pass: every scan, tied to its subject's first neutral and to the average face.
+    void tie_scans(Subject& subject) {
+        Face neutral;
+        if (subject.neutral) {
+            try {
+                neutral = tie_neutral(subject);
+                subject.finished.push_back(subject.neutral->id);
+            } catch (const std::exception& e) {
+                fail(subject, *subject.neutral, e.what());
+                subject.reported.insert(subject.neutral);
+                done(*subject.neutral);
+                subject.neutral = nullptr;
+            }
+        }
+        for (const auto* entry : subject.scans) {
+            if (subject.reported.contains(entry)) continue;
+            if (subject.neutral && entry != subject.neutral) {
+                try {
+                    tie_scan(subject, neutral, *entry);
+                    subject.finished.push_back(entry->id);
+                } catch (const std::exception& e) {
+                    fail(subject, *entry, e.what());
+                }
+            }
+            done(*entry);
+        }
+    }
+
+    Face tie_neutral(Subject& subject) {
+        const auto stem = face_stem(root_, subject.neutral->id);
+        Face neutral = read_face(stem);
+        const auto similarity = similarity_normalisation(neutral.landmarks, average_.landmarks);
+        const auto affine = affine_normalisation(neutral.snapped_landmarks, average_.landmarks);
+        if (!subject.fresh && neutral.average_from_scan.matrix() == similarity.matrix() &&
+            neutral.average_from_scan_affine.matrix() == affine.matrix()) {
+            ++subject.up_to_date;
+            return neutral;
+        }
+        neutral.average_from_scan = similarity;
+        neutral.average_from_scan_affine = affine;
+        begin_writing();
+        write_finished(stem, neutral, neutral_fingerprint(*subject.neutral));
+        ++subject.preprocessed;
+        return neutral;
+    }
+
+    void tie_scan(Subject& subject, const Face& neutral, const ScanEntry& entry) {
+        const auto stem = face_stem(root_, entry.id);
+        const auto fingerprint = describe(options_) + " scan " + stamp(entry) + " " + average_fingerprint_;
+        if (finished(stem, fingerprint)) {
+            ++subject.up_to_date;
+            return;
+        }
+        Face face = preprocess_scan(database::load(entry), options_);
+        align_to_neutral(face, neutral,
+                         stable_region_ ? stable_region_(face.id, neutral) : stable_on_every_face(neutral),
+                         options_.alignment);
+        face.average_from_scan = neutral.average_from_scan * face.neutral_from_scan;
+        face.average_from_scan_affine = affine_normalisation(face.snapped_landmarks, average_.landmarks);
+        begin_writing();
+        write_finished(stem, face, fingerprint);
+        ++subject.preprocessed;
+    }
+
+    PreprocessReport finish() {
+        PreprocessReport report;
+        std::vector<ScanId> ids;
+        for (const auto& subject : subjects_) {
+            report.preprocessed += subject.preprocessed;
+            report.up_to_date += subject.up_to_date;
+            report.failures.insert(report.failures.end(), subject.failures.begin(), subject.failures.end());
+            ids.insert(ids.end(), subject.finished.begin(), subject.finished.end());
+            if (!subject.neutral) report.left_out.push_back(subject.scans.front()->id.subject);
+        }
+        std::sort(ids.begin(), ids.end());
+        std::vector<std::string> names;
+        for (const auto& id : ids) names.push_back(id.name());
+        auto failures = nlohmann::json::array();
+        for (const auto& failure : report.failures)
+            failures.push_back({{"scan", failure.scan}, {"reason", failure.reason}});
+        const nlohmann::json document = {{"schema", 1},
+                                         {"kind", "mimik workspace"},
+                                         {"database", fs::absolute(database_.root).lexically_normal().string()},
+                                         {"options", describe(options_)},
+                                         {"scans", names},
+                                         {"failures", failures},
+                                         {"subjects_left_out", report.left_out},
+                                         {"hidden_subjects", database_.hidden_subjects}};
+        geometry::write_atomically(root_ / "workspace.json", json_text(document));
+        return report;
+    }
+
+    const database::ScanDatabase& database_;
+    fs::path root_;
+    const PreprocessOptions& options_;
+    const StableRegion& stable_region_;
+    const std::function<void(const std::string&)>& progress_;
+    std::vector<Subject> subjects_;  // by name
+    AverageFace average_;
+    std::string average_fingerprint_;
+    std::once_flag writing_;
+};
+
+}  // namespace
 
 PreprocessReport preprocess_database(const database::ScanDatabase& database, const fs::path& root,
                                      const PreprocessOptions& options, const StableRegion& stable_region,
                                      const std::function<void(const std::string&)>& progress) {
-    PreprocessReport report;
-    std::mutex report_mutex;
-    const auto fail = [&](const ScanId& id, const std::string& reason) {
-        const std::scoped_lock lock(report_mutex);
-        report.failures.push_back({id.name(), reason});
-    };
-    const auto done = [&](const ScanId& id) {
-        if (progress) progress(id.name());
-    };
-
-    std::map<std::string, std::vector<const ScanEntry*>> by_subject;
-    for (const auto* entry : selected_scans(database, options)) by_subject[entry->id.subject].push_back(entry);
-    if (by_subject.empty())
-        throw InputError(
-            fmt::format("{}: no scan fits the selection; 'mimik scans' lists what there is", database.root.string()));
-    std::vector<std::string> subjects;
-    subjects.reserve(by_subject.size());
-    for (const auto& [subject, entries] : by_subject) subjects.push_back(subject);
-
-    // First pass: one neutral per subject, gridded and written. A neutral that fails gives its place to the next one.
-    std::string average_fingerprint =
-        describe(options) + fmt::format(" average {} {} {} {} {} {}", options.average.rows, options.average.cols,
-                                        options.average.half_width, options.average.above_eyes,
-                                        options.average.below_chin, options.average.min_share);
-    std::vector<const ScanEntry*> neutral_of(subjects.size(), nullptr);
-    std::vector<geometry::Landmarks> neutral_landmarks(subjects.size());
-    geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t s = begin; s < end; ++s)
-            for (const auto* entry : by_subject.at(subjects[s])) {
-                if (!entry->id.neutral()) continue;
-                const auto stem = face_stem(root, entry->id);
-                const std::string fingerprint = describe(options) + " neutral " + stamp(*entry);
-                try {
-                    if (finished(stem, fingerprint)) {
-                        neutral_landmarks[s] = read_face(stem).landmarks;
-                    } else {
-                        Face face = preprocess_scan(database::load(*entry), options);
-                        for (const auto name : affine_landmarks) (void)face.landmarks.at(name);
-                        write_face(stem, face);
-                        geometry::write_atomically(fingerprint_file(stem), fingerprint);
-                        neutral_landmarks[s] = face.landmarks;
-                    }
-                    neutral_of[s] = entry;
-                    break;
-                } catch (const std::exception& e) {
-                    fail(entry->id, e.what());
-                    done(entry->id);
-                }
-            }
-    });
-    std::vector<geometry::Landmarks> sets;
-    std::vector<std::size_t> usable;
-    for (std::size_t s = 0; s < subjects.size(); ++s) {
-        if (!neutral_of[s]) {
-            report.left_out.push_back(subjects[s]);
-            continue;
-        }
-        usable.push_back(s);
-        sets.push_back(neutral_landmarks[s]);
-        average_fingerprint += " " + neutral_of[s]->id.name() + " " + stamp(*neutral_of[s]);
-    }
-
-    AverageFace average;
-    std::string found;
-    std::error_code error;
-    if (fs::exists(root / "average" / "average_face.json", error)) {
-        try {
-            average = read_average_face(average_stem(root), &found);
-        } catch (const InputError&) {
-            found.clear();  // damaged: made again below
-        }
-    }
-    if (found != average_fingerprint) {
-        double rms_mm = 0;
-        const auto consensus = consensus_landmarks(sets, options.average.max_iterations, &rms_mm);
-        average = build_average_face(
-            usable.size(), [&](std::size_t k) { return read_face(face_stem(root, neutral_of[usable[k]]->id)); },
-            consensus, options.average);
-        average.consensus_rms_mm = rms_mm;
-        write_average_face(average_stem(root), average, average_fingerprint);
-        average = read_average_face(average_stem(root));
-    }
-
-    std::set<std::string> failed_neutrals;
-    for (const auto& failure : report.failures) failed_neutrals.insert(failure.scan);
-
-    // Second pass: every scan, tied to its subject's first neutral and to the average face.
-    std::vector<std::vector<ScanId>> finished_ids(subjects.size());
-    geometry::parallel_for(usable.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t u = begin; u < end; ++u) {
-            const std::size_t s = usable[u];
-            const auto neutral_id = neutral_of[s]->id;
-            Face neutral = read_face(face_stem(root, neutral_id));
-            neutral.average_from_scan = similarity_normalisation(neutral.landmarks, average.landmarks);
-            neutral.average_from_scan_affine = affine_normalisation(neutral.snapped_landmarks, average.landmarks);
-            for (const auto* entry : by_subject.at(subjects[s])) {
-                const auto stem = face_stem(root, entry->id);
-                const std::string fingerprint =
-                    (entry == neutral_of[s]
-                         ? describe(options) + " neutral " + stamp(*entry)
-                         : describe(options) + " scan " + stamp(*entry) + " average " + average_fingerprint);
-                try {
-                    if (entry != neutral_of[s] && finished(stem, fingerprint)) {
-                        const std::scoped_lock lock(report_mutex);
-                        ++report.up_to_date;
-                        finished_ids[s].push_back(entry->id);
-                    } else if (entry == neutral_of[s]) {
-                        write_face(stem, neutral);
-                        const std::scoped_lock lock(report_mutex);
-                        ++report.preprocessed;
-                        finished_ids[s].push_back(entry->id);
-                    } else {
-                        if (failed_neutrals.contains(entry->id.name())) continue;  // reported in the first pass
-                        Face face = preprocess_scan(database::load(*entry), options);
-                        align_to_neutral(
-                            face, neutral,
-                            stable_region ? stable_region(face.id, neutral) : stable_on_every_face(neutral),
-                            options.alignment);
-                        face.average_from_scan = neutral.average_from_scan * face.neutral_from_scan;
-                        face.average_from_scan_affine = affine_normalisation(face.snapped_landmarks, average.landmarks);
-                        write_face(stem, face);
-                        geometry::write_atomically(fingerprint_file(stem), fingerprint);
-                        const std::scoped_lock lock(report_mutex);
-                        ++report.preprocessed;
-                        finished_ids[s].push_back(entry->id);
-                    }
-                } catch (const std::exception& e) {
-                    fail(entry->id, e.what());
-                }
-                done(entry->id);
-            }
-        }
-    });
-
-    std::sort(report.failures.begin(), report.failures.end(),
-              [](const ScanFailure& a, const ScanFailure& b) { return a.scan < b.scan; });
-    std::vector<std::string> names;
-    for (const auto& ids : finished_ids)
-        for (const auto& id : ids) names.push_back(id.name());
-    std::sort(names.begin(), names.end());
-    auto failures = nlohmann::json::array();
-    for (const auto& failure : report.failures)
-        failures.push_back({{"scan", failure.scan}, {"reason", failure.reason}});
-    const nlohmann::json document = {{"schema", 1},
-                                     {"kind", "mimik workspace"},
-                                     {"database", fs::absolute(database.root).lexically_normal().string()},
-                                     {"options", describe(options)},
-                                     {"scans", names},
-                                     {"failures", failures},
-                                     {"hidden_subjects", database.hidden_subjects}};
-    geometry::write_atomically(root / "workspace.json", document.dump(1) + "\n");
-    return report;
+    options.check();
+    return DatabaseRun(database, root, options, stable_region, progress).run();
 }
 
 void align_to_neutral(Face& face, const Face& neutral, const std::vector<char>& stable,
@@ -301,8 +448,9 @@ void align_to_neutral(Face& face, const Face& neutral, const std::vector<char>& 
 Workspace::Workspace(fs::path root) : root_(std::move(root)) {
     const auto file = root_ / "workspace.json";
     if (!fs::exists(file))
-        throw InputError(fmt::format("{}: no workspace.json there; make one with 'mimik preprocess DB -o {}'",
-                                     root_.string(), root_.string()));
+        throw InputError(
+            fmt::format("{}: no finished workspace there; make or finish one with 'mimik preprocess DB -o {}'",
+                        root_.string(), root_.string()));
     from_json_file<int>(file, [&](const nlohmann::json& document) {
         database_root_ = document.at("database").get<std::string>();
         hidden_subjects_ = document.at("hidden_subjects").get<std::vector<std::string>>();

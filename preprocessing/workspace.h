@@ -16,8 +16,9 @@
 namespace mimik::preprocessing {
 
 /// Which vertices of a neutral face's grid the expression of `scan` leaves where they are (1) or may move (0). The
-/// rooms that know about Action Units supply it; without one the nose bridge, inner eye corners and temples are taken.
+/// layers that know about Action Units supply it; without one stable_on_every_face() is taken.
 using StableRegion = std::function<std::vector<char>(const database::ScanId& scan, const Face& neutral)>;
+/// Nose bridge, inner eye corners and temples, measured vertices only; upright by `neutral.average_from_scan`.
 [[nodiscard]] std::vector<char> stable_on_every_face(const Face& neutral);
 
 struct PreprocessOptions {
@@ -25,9 +26,10 @@ struct PreprocessOptions {
     GriddingOptions gridding;
     AverageFaceOptions average;
     RigidAlignmentOptions alignment;
-    std::vector<std::string> subjects;  ///< empty: all
-    std::vector<std::string> codes;  ///< expression codes to take beside the neutrals, e.g. "12", "HAPPY"; empty: all
-                                     ///< of groups N, E, UFAU, LFAU, CAU (poses and occlusions are left out)
+    std::vector<std::string> subjects;  ///< empty: all; case ignored
+    std::vector<std::string> codes;     ///< expressions to take beside the neutrals, e.g. "12", "AU12", "HAPPY"; empty:
+                                        ///< all but head rotations and occlusions (groups YR, PR, CR, O, IGN)
+    void check() const;                 ///< throws InputError
 };
 
 /// One scan to a face in the scanner's frame: cleaned, gridded, landmarks snapped; transforms still identity.
@@ -44,9 +46,9 @@ struct ScanFailure {
 };
 
 struct PreprocessReport {
-    std::size_t preprocessed = 0;  ///< written in this run
-    std::size_t up_to_date = 0;    ///< found finished from an earlier run
-    std::vector<ScanFailure> failures;
+    std::size_t preprocessed = 0;       ///< written in this run
+    std::size_t up_to_date = 0;         ///< found finished from an earlier run
+    std::vector<ScanFailure> failures;  ///< by subject
     std::vector<std::string> left_out;  ///< subjects without a usable neutral
 };
 
@@ -80,14 +82,17 @@ private:
 };
 
 /// Preprocesses a whole database, in parallel over subjects, one scan in memory per thread. What an earlier run
-/// finished with the same options on the same file is not done again. A scan that fails is reported and the rest goes
-/// on.
+/// finished with the same options on the same file is not done again; a face that was deleted or damaged since is. From
+/// the first face that a run writes to its end there is no workspace.json, so that nobody takes a half-made folder for
+/// a finished one. A scan that fails is reported and the rest goes on.
 /// @param progress  called once per scan, from any thread; may be empty.
+/// @throws InputError for bad options, an empty selection, or fewer than two subjects with a usable neutral.
 PreprocessReport preprocess_database(const database::ScanDatabase& database, const std::filesystem::path& root,
                                      const PreprocessOptions& options = {}, const StableRegion& stable_region = {},
                                      const std::function<void(const std::string& scan)>& progress = {});
 
-/// The scans that `options` select, neutrals first within each subject.
+/// The scans that `options` select, neutrals first within each subject. @throws InputError naming the subjects or
+/// expressions that the database does not have.
 [[nodiscard]] std::vector<const database::ScanEntry*> selected_scans(const database::ScanDatabase& database,
                                                                      const PreprocessOptions& options);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/errors.h"
+#include "preprocessing/control_pairs.h"
 #include "preprocessing/workspace.h"
 #include "tests/support/analytic_face.h"
 
@@ -38,6 +39,37 @@ TEST(ConsensusLandmarks, is_mirror_symmetric_with_the_nose_tip_at_the_origin) {
     EXPECT_NEAR(left.x(), -right.x(), 1e-9);
     EXPECT_NEAR(left.y(), right.y(), 1e-9);
     EXPECT_GT(left.x(), 0);
+}
+
+TEST(ConsensusLandmarks, marks_that_few_have_and_marks_that_are_missing_change_no_size) {
+    const auto marks = test::AnalyticFace{}.landmarks();
+    std::vector<geometry::Landmark> more(marks.all().begin(), marks.all().end()), fewer;
+    more.push_back({"ear_lobe_left", {80, -20, -90}, ""});
+    more.push_back({"ear_lobe_right", {-80, -20, -90}, ""});
+    for (const auto& mark : marks.all())
+        if (mark.name != "chin" && mark.name != "brow_outer_left") fewer.push_back(mark);
+    const std::vector<Landmarks> sets = {marks, marks, Landmarks(more), Landmarks(fewer)};
+    const auto consensus = consensus_landmarks(sets);
+    EXPECT_EQ(consensus.find("ear_lobe_left"), nullptr);
+    const double eyes_mm = (consensus.position_mm("eye_outer_left") - consensus.position_mm("eye_outer_right")).norm();
+    EXPECT_NEAR(eyes_mm, 90.0, 1e-6);  // all four faces are the same one
+}
+
+TEST(ControlPairs, landmarks_that_lie_on_one_another_are_merged_by_name_and_the_spline_still_passes_through_the_rest) {
+    const auto marks = test::AnalyticFace{}.landmarks();
+    std::vector<geometry::Landmark> closed(marks.all().begin(), marks.all().end());
+    for (auto& mark : closed)
+        if (mark.name == "lower_lip_inner") mark.position_mm = marks.position_mm("upper_lip_inner");
+    const Landmarks from(closed);
+    const auto to = test::AnalyticFace{1.2, 5}.landmarks();
+    const ControlPairs pairs(from, to);
+    EXPECT_EQ(pairs.merged(), std::vector<std::string>{"'lower_lip_inner' lies on 'upper_lip_inner'"});
+    const auto spline = landmark_spline(from, to);
+    for (const auto& mark : from.all())
+        if (mark.name != "lower_lip_inner") {
+            // Rounding of a dense solve of 25 equations on coordinates of a hundred millimetres.
+            EXPECT_LT((spline(mark.position_mm) - to.position_mm(mark.name)).norm(), 1e-9) << mark.name;
+        }
 }
 
 TEST(ConsensusLandmarks, one_face_is_no_average) {

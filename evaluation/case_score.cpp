@@ -1,0 +1,113 @@
+#include "evaluation/case_score.h"
+
+#include <algorithm>
+
+namespace mimik::evaluation {
+
+using geometry::Point;
+using geometry::Vector;
+
+namespace {
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+}  // namespace
+
+CaseResult judge_case(const ScoredTarget& target, const std::vector<Point>& animated_mm,
+                      const std::vector<Vector>& displacement_mm, const geometry::QuadGrid& grid, bool whole_face) {
+    CaseResult result;
+    result.done = true;
+    // A vertex that stays where it was, or was left out, has the distance of doing nothing: only the others are asked.
+    std::vector<Point> queries;
+    std::vector<std::size_t> asked, moved;
+    std::vector<double> distance_mm;
+    std::vector<char> left_out;
+    for (std::size_t k = 0; k < target.vertices.size(); ++k) {
+        if (!whole_face && !target.in_zone[k]) continue;
+        const std::uint32_t v = target.vertices[k];
+        const bool answered = animated_mm[v].allFinite() && displacement_mm[v].allFinite();
+        if (!answered) {
+            ++result.left_out;
+        } else if (animated_mm[v] != grid.vertices_mm[v]) {
+            moved.push_back(asked.size());
+            queries.push_back(animated_mm[v]);
+        }
+        asked.push_back(k);
+        left_out.push_back(answered ? 0 : 1);
+        distance_mm.push_back(target.nothing_mm[k]);
+    }
+    const auto hits = target.expressive->closest(queries);
+    for (std::size_t i = 0; i < moved.size(); ++i) distance_mm[moved[i]] = hits[i].distance_mm;
+    double zone = 0, zone_nothing = 0, whole = 0, whole_nothing = 0, true_sum = 0, true_nothing = 0;
+    std::size_t zone_count = 0;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        const std::size_t k = asked[i];
+        whole += distance_mm[i];
+        whole_nothing += target.nothing_mm[k];
+        if (!target.in_zone[k]) continue;
+        ++zone_count;
+        zone += distance_mm[i];
+        zone_nothing += target.nothing_mm[k];
+        if (!target.true_displacement_mm.empty()) {
+            const Vector& way = displacement_mm[target.vertices[k]];
+            true_sum += ((left_out[i] ? Vector(Vector::Zero()) : way) - target.true_displacement_mm[k]).norm();
+            true_nothing += target.true_displacement_mm[k].norm();
+        }
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(1, zone_count));
+    result.zone_mm = zone / count;
+    result.zone_nothing_mm = zone_nothing / count;
+    if (whole_face && !asked.empty()) {
+        result.whole_mm = whole / static_cast<double>(asked.size());
+        result.whole_nothing_mm = whole_nothing / static_cast<double>(asked.size());
+    }
+    if (!target.true_displacement_mm.empty()) {
+        result.true_mm = true_sum / count;
+        result.true_nothing_mm = true_nothing / count;
+    }
+    return result;
+}
+
+Score summarise_cases(const std::vector<CaseResult>& cases) {
+    Score score;
+    double method = 0, nothing = 0, whole = 0, whole_nothing = 0, truth = 0, truth_nothing = 0;
+    std::size_t with_truth = 0;
+    std::vector<double> explained;
+    for (const auto& result : cases) {
+        if (!result.done) continue;
+        ++score.cases;
+        method += result.zone_mm;
+        nothing += result.zone_nothing_mm;
+        whole += result.whole_mm;
+        whole_nothing += result.whole_nothing_mm;
+        score.largest_step_mm += result.step_mm;
+        score.left_out_vertices += result.left_out;
+        if (result.true_mm >= 0) {
+            truth += result.true_mm;
+            truth_nothing += result.true_nothing_mm;
+            ++with_truth;
+        }
+        if (result.zone_nothing_mm > 0) explained.push_back(1 - result.zone_mm / result.zone_nothing_mm);
+        if (result.zone_mm > result.zone_nothing_mm) ++score.worse_than_nothing;
+    }
+    if (score.cases == 0) return score;
+    const auto n = static_cast<double>(score.cases);
+    score.explained = nothing > 0 ? 1 - method / nothing : 0;
+    score.explained_median = median(explained);
+    score.explained_whole = whole_nothing > 0 ? 1 - whole / whole_nothing : 0;
+    score.error_mm = method / n;
+    score.nothing_mm = nothing / n;
+    score.largest_step_mm /= n;
+    if (with_truth > 0) {
+        score.true_error_mm = truth / static_cast<double>(with_truth);
+        score.nothing_true_mm = truth_nothing / static_cast<double>(with_truth);
+    }
+    return score;
+}
+
+}  // namespace mimik::evaluation

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geometry/quad_grid.h"
+#include "geometry/surface_index.h"
+#include "geometry/types.h"
+
+namespace mimik::evaluation {
+
+/// Everything about one target that all methods share.
+struct ScoredTarget {
+    std::vector<std::uint32_t> vertices;  ///< scored: measured, and doing nothing does not hit the border
+    std::vector<char> in_zone;            ///< parallel to `vertices`
+    std::vector<double> nothing_mm;       ///< parallel to `vertices`
+    std::vector<geometry::Vector>
+        true_displacement_mm;                          ///< parallel to `vertices`, scanner frame; empty without a truth
+    std::optional<geometry::SurfaceIndex> expressive;  ///< the real expressive scan, in the neutral's scanner frame
+};
+
+/// One method on one case; means over the scored vertices.
+struct CaseResult {
+    bool done = false;  ///< false: no such case
+    double zone_mm = 0, zone_nothing_mm = 0, whole_mm = 0, whole_nothing_mm = 0;
+    double true_mm = -1, true_nothing_mm = -1, step_mm = 0;
+    std::size_t left_out = 0;
+};
+
+/// One method on one expression.
+struct Score {
+    double explained = 0.0;         ///< 1 - sum err(method) / sum err(doing nothing), active zone
+    double explained_median = 0.0;  ///< of 1 - err / err(nothing) over the cases
+    double explained_whole = 0.0;   ///< the same over the whole face
+    double error_mm = 0.0;          ///< mean over cases
+    double nothing_mm = 0.0;
+    double true_error_mm = -1.0;  ///< mean 3D distance to the true position of the same material point; -1: no truth
+    double nothing_true_mm = -1.0;
+    double largest_step_mm = 0.0;  ///< largest crack between neighbouring vertices, mean over cases
+    std::size_t cases = 0;
+    std::size_t worse_than_nothing = 0;
+    std::size_t left_out_vertices = 0;  ///< scored as doing nothing
+};
+
+/// Distance of an animated face to the real expressive scan, and to the truth where it is known. A vertex whose
+/// position or displacement is not finite was left out by the method and counts with the error of doing nothing, in
+/// both.
+/// @param animated_mm      one per vertex of the target's grid, scanner frame; NaN: no answer
+/// @param displacement_mm  the same, from the neutral face
+/// @param grid             the neutral face
+[[nodiscard]] CaseResult judge_case(const ScoredTarget& target, const std::vector<geometry::Point>& animated_mm,
+                                    const std::vector<geometry::Vector>& displacement_mm,
+                                    const geometry::QuadGrid& grid, bool whole_face);
+
+/// Sums over the cases that are there.
+[[nodiscard]] Score summarise_cases(const std::vector<CaseResult>& cases);
+
+}  // namespace mimik::evaluation

@@ -1,0 +1,96 @@
+#include "modeling/source_expression.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "tests/database/temporary_folder.h"
+#include "tests/support/analytic_workspace_files.h"
+
+namespace mimik::modeling {
+namespace {
+
+using database::message_of;
+using preprocessing::Workspace;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class SourceExpression : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = new database::TemporaryFolder;
+        workspace_ = new Workspace(test::analytic_workspace(folder_->path()));
+    }
+    static void TearDownTestSuite() {
+        delete workspace_;
+        delete folder_;
+    }
+    static ExpressionModel model(const std::string& code, const ExpressionSource& source) {
+        return model_from_workspace(*workspace_, builtin_catalogue(), code, source);
+    }
+    static database::TemporaryFolder* folder_;
+    static Workspace* workspace_;
+};
+
+database::TemporaryFolder* SourceExpression::folder_ = nullptr;
+Workspace* SourceExpression::workspace_ = nullptr;
+
+TEST_F(SourceExpression, one_side_comes_from_the_two_sided_scan_where_there_is_no_other) {
+    const auto left = model("12L", {"bs001", {}});
+    EXPECT_EQ(left.expression, "AU12_L");
+    EXPECT_THAT(left.sources, ElementsAre("bs001_N_N_0", "bs001_LFAU_12_0"));
+    for (const auto& point : left.points)
+        if (point.kind == ControlKind::muscle) {
+            EXPECT_THAT(point.name, HasSubstr("_left"));
+        }
+}
+
+TEST_F(SourceExpression, a_mean_leaves_out_the_target_and_takes_all_others) {
+    const auto mean = model("12", {"mean", {"bs001"}});
+    EXPECT_THAT(mean.sources, ElementsAre("bs000_N_N_0", "bs000_LFAU_12_0", "bs002_N_N_0", "bs002_LFAU_12_0"));
+    const std::array others = {model("12", {"bs000", {}}), model("12", {"bs002", {}})};
+    const auto by_hand = mean_expression(others);
+    ASSERT_EQ(mean.points.size(), by_hand.points.size());
+    for (std::size_t k = 0; k < mean.points.size(); ++k)
+        EXPECT_EQ(mean.points[k].displacement_mm, by_hand.points[k].displacement_mm);
+}
+
+TEST_F(SourceExpression, what_is_not_there_is_named_with_what_there_is) {
+    EXPECT_THAT(message_of<InputError>([] {
+                    (void)model("17", {"bs001", {}});
+                }),
+                HasSubstr("'bs001' has no scan of expression '17'; there are: 12"));
+    EXPECT_THAT(message_of<InputError>([] {
+                    (void)model("12", {"bs009", {}});
+                }),
+                HasSubstr("'bs009' has no neutral face there; there are: bs000, bs001, bs002"));
+    EXPECT_THAT(message_of<InputError>([] {
+                    (void)model("12", {"mean", {"bs000", "bs001", "bs002"}});
+                }),
+                HasSubstr("no other subject shows expression '12'"));
+}
+
+TEST_F(SourceExpression, subjects_who_must_not_be_shown_are_no_source_and_in_no_mean) {
+    const database::TemporaryFolder folder;
+    geometry::write_atomically(folder.path() / "db" / "unallowed_subjects.txt", "bs000\n");
+    const auto workspace = test::analytic_workspace(folder.path());
+    EXPECT_THAT(message_of<InputError>([&] {
+                    (void)model_from_workspace(workspace, builtin_catalogue(), "12", {"bs000", {}});
+                }),
+                HasSubstr("'bs000' stands in unallowed_subjects.txt"));
+    const auto mean = model_from_workspace(workspace, builtin_catalogue(), "12", {"mean", {"bs001"}});
+    EXPECT_THAT(mean.sources, ElementsAre("bs002_N_N_0", "bs002_LFAU_12_0"));
+}
+
+TEST_F(SourceExpression, a_damaged_scan_leaves_the_mean_of_the_rest_with_a_word_about_it) {
+    const database::TemporaryFolder folder;
+    const auto workspace = test::analytic_workspace(folder.path());
+    geometry::write_atomically(workspace.root() / "faces" / "bs000" / "bs000_LFAU_12_0.json", "{}");
+    const auto mean = model_from_workspace(workspace, builtin_catalogue(), "12", {"mean", {}});
+    EXPECT_EQ(mean.sources.size(), 4U);
+    EXPECT_THAT(mean.left_out, testing::Contains(HasSubstr("bs000_LFAU_12_0")));
+}
+
+}  // namespace
+}  // namespace mimik::modeling

@@ -1,0 +1,250 @@
+#include "preprocessing/workspace.h"
+
+#include <atomic>
+#include <fstream>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/parallel.h"
+#include "tests/database/temporary_folder.h"
+#include "tests/support/analytic_database.h"
+
+namespace mimik::preprocessing {
+namespace {
+
+namespace fs = std::filesystem;
+using database::message_of;
+using geometry::Point;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+PreprocessOptions quick() {
+    PreprocessOptions options;
+    options.gridding.rows = options.gridding.cols = 60;
+    options.average.rows = options.average.cols = 60;
+    return options;
+}
+
+std::map<std::string, std::string> contents(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file())
+            files[fs::relative(entry.path(), folder).string()] = geometry::read_text(entry.path());
+    return files;
+}
+
+class WorkspaceTest : public testing::Test {
+protected:
+    void SetUp() override { test::write_analytic_database(database_); }
+    [[nodiscard]] PreprocessReport preprocess(const PreprocessOptions& options = quick()) const {
+        return preprocess_database(database::open_database(database_), workspace_, options);
+    }
+    [[nodiscard]] fs::path face_file(const std::string& name) const {
+        return workspace_ / "faces" / name.substr(0, 5) / name;
+    }
+
+    database::TemporaryFolder folder_;
+    const fs::path database_ = folder_.path() / "db", workspace_ = folder_.path() / "work";
+};
+
+TEST_F(WorkspaceTest, every_scan_becomes_a_face_and_an_expression_lies_on_its_neutral) {
+    const auto report = preprocess();
+    EXPECT_EQ(report.preprocessed, 6U);
+    EXPECT_EQ(report.up_to_date, 0U);
+    EXPECT_TRUE(report.failures.empty());
+    const Workspace workspace(workspace_);
+    EXPECT_THAT(workspace.subjects(), ElementsAre("bs000", "bs001", "bs002"));
+    EXPECT_EQ(workspace.average().scans.size(), 3U);
+    for (int k = 0; k < 3; ++k) {
+        const auto face = workspace.face(*workspace.expression("bs00" + std::to_string(k), "12"));
+        const auto neutral_from_scan = test::analytic_pose(2 * k) * test::analytic_pose(2 * k + 1).inverse();
+        for (const auto* name : {"brow_outer_left", "eye_inner_right", "chin"}) {
+            const Point& mark = face.landmarks.position_mm(name);
+            // The 2 mm scan and the 60 x 60 grid (2.5 x 3.1 mm) round the relief that holds the face in x and y: bumps
+            // of 5 to 14 mm width keep some tenths of a millimetre, most at the chin, the farthest from the stable
+            // part.
+            EXPECT_LT((face.neutral_from_scan * mark - neutral_from_scan * mark).norm(), 0.6) << k << " " << name;
+        }
+        const auto neutral = workspace.face(workspace.neutral(face.id.subject));
+        EXPECT_TRUE(neutral.neutral_from_scan.matrix().isIdentity(0));
+        EXPECT_TRUE(face.average_from_scan.matrix().isApprox(
+            (neutral.average_from_scan * face.neutral_from_scan).matrix(), 1e-12));
+    }
+}
+
+TEST_F(WorkspaceTest, a_second_run_finds_everything_done_and_changes_no_byte) {
+    (void)preprocess();
+    const auto before = contents(workspace_);
+    std::atomic<int> told = 0;
+    const auto report = preprocess_database(database::open_database(database_), workspace_, quick(), {},
+                                            [&](const std::string&) { ++told; });
+    EXPECT_EQ(report.preprocessed, 0U);
+    EXPECT_EQ(report.up_to_date, 6U);
+    EXPECT_EQ(told, 6);
+    EXPECT_EQ(contents(workspace_), before);
+}
+
+TEST_F(WorkspaceTest, deleted_cut_and_garbled_files_are_made_again_as_they_were) {
+    (void)preprocess();
+    const auto before = contents(workspace_);
+    fs::remove(face_file("bs000_LFAU_12_0.ply"));
+    fs::resize_file(face_file("bs001_LFAU_12_0.json"), 100);
+    fs::remove(face_file("bs001_N_N_0.ply"));
+    {
+        std::fstream neutral(face_file("bs002_N_N_0.json"), std::ios::in | std::ios::out);
+        neutral << "not";  // the same length, and no JSON any more
+    }
+    fs::resize_file(workspace_ / "average" / "average_face.ply", 200);
+    const auto report = preprocess();
+    EXPECT_EQ(report.preprocessed, 4U);
+    EXPECT_EQ(report.up_to_date, 2U);
+    EXPECT_TRUE(report.failures.empty());
+    EXPECT_EQ(contents(workspace_), before);
+}
+
+TEST_F(WorkspaceTest, another_option_or_another_scan_is_preprocessed_anew) {
+    (void)preprocess();
+    auto options = quick();
+    options.cleaning.spike_mm = 5;
+    EXPECT_EQ(preprocess(options).preprocessed, 6U);
+    EXPECT_EQ(preprocess(options).up_to_date, 6U);
+    test::write_analytic_scan(database_, "bs001_LFAU_12_0", {1.0, 4}, test::analytic_pose(3), 1.5);
+    const auto report = preprocess(options);
+    EXPECT_EQ(report.preprocessed, 1U);
+    EXPECT_EQ(report.up_to_date, 5U);
+}
+
+TEST_F(WorkspaceTest, a_run_that_ends_half_way_leaves_no_workspace_and_the_next_one_goes_on) {
+    struct Stopped {};
+    (void)preprocess();
+    auto options = quick();
+    options.cleaning.spike_mm = 5;
+    const auto stop = [](const std::string& scan) {
+        if (scan == "bs001_LFAU_12_0") throw Stopped();
+    };
+    geometry::set_thread_count(1);
+    EXPECT_THROW((void)preprocess_database(database::open_database(database_), workspace_, options, {}, stop), Stopped);
+    geometry::set_thread_count(0);
+    EXPECT_THAT(message_of<InputError>([&] { Workspace{workspace_}; }), HasSubstr("no finished workspace there"));
+    const auto report = preprocess(options);
+    EXPECT_EQ(report.preprocessed + report.up_to_date, 6U);
+    EXPECT_GE(report.up_to_date, 4U);  // the first two subjects were done
+    EXPECT_EQ(Workspace(workspace_).scans().size(), 6U);
+}
+
+TEST_F(WorkspaceTest, a_bad_scan_is_reported_and_the_rest_is_done) {
+    fs::resize_file(database_ / "bs001" / "bs001_LFAU_12_0.bnt", 1000);
+    const auto report = preprocess();
+    EXPECT_EQ(report.preprocessed, 5U);
+    ASSERT_EQ(report.failures.size(), 1U);
+    EXPECT_EQ(report.failures[0].scan, "bs001_LFAU_12_0");
+    EXPECT_THAT(report.failures[0].reason, HasSubstr("bs001_LFAU_12_0.bnt"));
+    EXPECT_FALSE(Workspace(workspace_).expression("bs001", "12"));
+}
+
+TEST_F(WorkspaceTest, a_bad_neutral_gives_its_place_to_the_next_and_a_subject_without_one_is_left_out) {
+    test::write_analytic_scan(database_, "bs000_N_N_1", {0.95, 0}, test::analytic_pose(4));
+    fs::resize_file(database_ / "bs000" / "bs000_N_N_0.bnt", 1000);
+    test::write_analytic_scan(database_, "bs003_N_N_0", {1.02, 0}, test::analytic_pose(1));
+    {
+        // Eye corners, chin and nose tip in one plane: Eqs 5.1-5.4 have no answer.
+        std::vector<geometry::Landmark> flat;
+        const auto marks = test::AnalyticFace{}.landmarks();
+        for (const auto& mark : marks.all())
+            flat.push_back({mark.name, {mark.position_mm.x(), mark.position_mm.y(), 0}, ""});
+        database::write_lm3(database_ / "bs003" / "bs003_N_N_0.lm3",
+                            database::to_bosphorus_labels(geometry::Landmarks(flat)));
+        test::AnalyticFace face{1.02, 0};
+        auto scan = face.scan(2.0);
+        for (auto& p : scan.points_mm)
+            if (p.allFinite()) p.z() = 0;
+        database::write_bnt(database_ / "bs003" / "bs003_N_N_0.bnt", database::to_bnt(scan));
+    }
+    const auto report = preprocess();
+    EXPECT_THAT(report.left_out, ElementsAre("bs003"));
+    ASSERT_EQ(report.failures.size(), 2U);
+    EXPECT_EQ(report.failures[0].scan, "bs000_N_N_0");
+    EXPECT_EQ(report.failures[1].scan, "bs003_N_N_0");
+    EXPECT_THAT(report.failures[1].reason, HasSubstr("one plane"));
+    const Workspace workspace(workspace_);
+    EXPECT_EQ(workspace.neutral("bs000").name(), "bs000_N_N_1");
+    EXPECT_TRUE(workspace.expression("bs000", "12"));
+}
+
+TEST_F(WorkspaceTest, one_and_two_threads_write_the_same_bytes) {
+    fs::resize_file(database_ / "bs001" / "bs001_LFAU_12_0.bnt", 1000);  // failures are listed in one order, too
+    geometry::set_thread_count(1);
+    (void)preprocess();
+    const auto one = contents(workspace_);
+    fs::remove_all(workspace_);
+    geometry::set_thread_count(2);
+    (void)preprocess();
+    geometry::set_thread_count(0);
+    EXPECT_EQ(contents(workspace_), one);
+    EXPECT_EQ(one.size(), 3 * 5 + 2 + 1U);  // 5 faces of .ply, .json, .done; the average face; workspace.json
+}
+
+TEST_F(WorkspaceTest, hidden_subjects_are_known_to_the_workspace) {
+    geometry::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
+    (void)preprocess();
+    const Workspace workspace(workspace_);
+    EXPECT_TRUE(workspace.hidden("bs001"));
+    EXPECT_FALSE(workspace.hidden("bs000"));
+}
+
+TEST_F(WorkspaceTest, a_selection_that_names_what_is_not_there_is_refused_by_name) {
+    auto options = quick();
+    options.subjects = {"BS000", "bs001", "bs777"};
+    EXPECT_THAT(message_of<InputError>([&] { (void)preprocess(options); }), HasSubstr("no subject BS777"));
+    options.subjects = {"BS000", "bs001"};
+    options.codes = {"AU12", "27"};
+    EXPECT_THAT(message_of<InputError>([&] { (void)preprocess(options); }), HasSubstr("no scan of expression 27"));
+    options.codes = {"AU12"};
+    EXPECT_EQ(selected_scans(database::open_database(database_), options).size(), 4U);
+    options.subjects = {"bs001"};
+    EXPECT_THAT(message_of<InputError>([&] { (void)preprocess(options); }),
+                HasSubstr("1 of 1 selected subjects have a usable neutral face, and the average face needs two"));
+}
+
+TEST_F(WorkspaceTest, bad_options_are_refused_before_any_scan_is_read) {
+    auto options = quick();
+    options.gridding.rows = 1;
+    EXPECT_THROW((void)preprocess(options), InputError);
+    EXPECT_FALSE(fs::exists(workspace_));
+}
+
+TEST_F(WorkspaceTest, what_is_missing_or_damaged_is_named) {
+    (void)preprocess();
+    const Workspace workspace(workspace_);
+    EXPECT_THAT(message_of<InputError>([&] { (void)workspace.neutral("bs009"); }),
+                HasSubstr("'bs009' has no neutral face there; there are: bs000, bs001, bs002"));
+    fs::remove(face_file("bs001_N_N_0.ply"));
+    EXPECT_THAT(message_of<InputError>([&] { (void)workspace.face(workspace.neutral("bs001")); }),
+                HasSubstr("bs001_N_N_0.ply"));
+    geometry::write_atomically(face_file("bs002_N_N_0.json"), "{}");
+    EXPECT_THAT(message_of<InputError>([&] { (void)workspace.face(workspace.neutral("bs002")); }),
+                HasSubstr("bs002_N_N_0.json: schema is 0"));
+}
+
+TEST_F(WorkspaceTest, a_face_reads_back_bit_for_bit) {
+    (void)preprocess();
+    const Workspace workspace(workspace_);
+    const auto face = workspace.face(workspace.neutral("bs000"));
+    write_face(folder_.path() / "copy", face);
+    EXPECT_EQ(geometry::read_text(folder_.path() / "copy.ply"), geometry::read_text(face_file("bs000_N_N_0.ply")));
+    EXPECT_EQ(geometry::read_text(folder_.path() / "copy.json"), geometry::read_text(face_file("bs000_N_N_0.json")));
+    std::size_t outside = 0;
+    for (std::size_t v = 0; v < face.grid.size(); ++v)
+        if (!face.grid.inside(v)) {
+            ++outside;
+            EXPECT_TRUE(std::isnan(face.grid.vertices_mm[v].z()) && face.grid.texture_coordinates[v].hasNaN());
+        }
+    EXPECT_GT(outside, 0U);
+}
+
+}  // namespace
+}  // namespace mimik::preprocessing
