@@ -108,7 +108,7 @@ std::optional<Face> read_finished(const fs::path& stem, const std::string& finge
 
 std::vector<char> stable_on_every_face(const Face& neutral) {
     const auto marks = geometry::transformed(neutral.landmarks, neutral.average_from_scan);
-    const Point left = marks.position_mm("eye_outer_left"), right = marks.position_mm("eye_outer_right");
+    const Point &left = marks.position_mm("eye_outer_left"), &right = marks.position_mm("eye_outer_right");
     const Point middle = 0.5 * (left + right);
     const double eyes_mm = (left - right).norm();
     std::vector<char> stable(neutral.grid.size(), 0);
@@ -118,7 +118,7 @@ std::vector<char> stable_on_every_face(const Face& neutral) {
         const double x = std::abs(p.x() - middle.x()) / eyes_mm, y = (p.y() - middle.y()) / eyes_mm;
         const bool nose_bridge = x < 0.22 && y > -0.30 && y < 0.10;
         const bool temple = x > 0.50 && x < 0.75 && y > -0.15 && y < 0.40;
-        stable[v] = nose_bridge || temple;
+        stable[v] = nose_bridge || temple ? 1 : 0;
     }
     return stable;
 }
@@ -393,6 +393,7 @@ private:
         }
         std::sort(ids.begin(), ids.end());
         std::vector<std::string> names;
+        names.reserve(ids.size());
         for (const auto& id : ids) names.push_back(id.name());
         auto failures = nlohmann::json::array();
         for (const auto& failure : report.failures)
