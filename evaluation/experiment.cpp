@@ -204,6 +204,7 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
         ActiveZone zone;
         if (has_truth) {
             std::vector<TrueSubject> known;
+            known.reserve(there.size());
             for (const auto& own : there)
                 known.push_back({&neutrals[own.subject], &true_neutrals[own.subject], &own.truth});
             zone = active_zone_from_truth(code, average, known);
