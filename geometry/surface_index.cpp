@@ -8,7 +8,7 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -339,44 +339,67 @@ struct SurfaceIndex::Impl {
         return point;
     }
 
+    // Vertices at exactly the same position get one number. Those of no triangle get none: grid vertices outside the
+    // face are NaN, equal to nothing, not even to themselves.
+    std::vector<std::uint32_t> weld() const {
+        std::vector<std::uint32_t> welded(vertices.size(), none);
+        const std::size_t slots = std::bit_ceil(2 * vertices.size());
+        std::vector<std::uint32_t> first_at(slots, none);  // open addressing, at most half full
+        for (const auto& t : triangles)
+            for (const auto v : t) {
+                if (welded[v] != none) continue;
+                const Point p = vertices[v] + Point::Zero();  // -0 becomes 0
+                std::size_t slot = PositionHash{}({p.x(), p.y(), p.z()}) & (slots - 1);
+                while (first_at[slot] != none && vertices[first_at[slot]] != p) slot = (slot + 1) & (slots - 1);
+                if (first_at[slot] == none) first_at[slot] = v;
+                welded[v] = first_at[slot];
+            }
+        return welded;
+    }
+
     void mark_borders() const {
-        std::unordered_map<std::array<double, 3>, std::uint32_t, PositionHash> first_at;
-        first_at.reserve(vertices.size());
-        std::vector<std::uint32_t> welded(vertices.size());
-        for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-            const Point p = vertices[v] + Point::Zero();  // -0 becomes 0
-            welded[v] = first_at.try_emplace({p.x(), p.y(), p.z()}, v).first->second;
-        }
-        const auto key = [&](const Triangle& t, std::size_t k) {
-            const std::uint64_t a = welded[t[k]], b = welded[t[(k + 1) % 3]];
-            return a < b ? a << 32 | b : b << 32 | a;
+        const auto welded = weld();
+        // The ends of each edge in order; lists of the edges that start at each vertex, one after another.
+        const auto ends = [&](const Triangle& t, std::size_t k) {
+            return std::minmax({welded[t[k]], welded[t[(k + 1) % 3]]});
         };
         const auto collapsed = [&](const Triangle& t) {
             return welded[t[0]] == welded[t[1]] || welded[t[1]] == welded[t[2]] || welded[t[2]] == welded[t[0]];
         };
-        std::vector<std::uint64_t> edges;
-        edges.reserve(3 * triangles.size());
+        std::vector<std::uint32_t> list_end(vertices.size() + 1, 0);
         for (const auto& t : triangles)
             if (!collapsed(t))
-                for (std::size_t k = 0; k < 3; ++k) edges.push_back(key(t, k));
-        std::sort(edges.begin(), edges.end());
-        std::vector<std::uint64_t> single;
-        for (std::size_t e = 0; e < edges.size();) {
-            std::size_t end = e + 1;
-            while (end < edges.size() && edges[end] == edges[e]) ++end;
-            if (end - e == 1) single.push_back(edges[e]);
-            e = end;
-        }
+                for (std::size_t k = 0; k < 3; ++k) ++list_end[ends(t, k).first + 1];
+        std::partial_sum(list_end.begin(), list_end.end(), list_end.begin());
+        const auto list_begin = list_end;
+        std::vector<std::uint32_t> other_end(list_end.back());
+        for (const auto& t : triangles)
+            if (!collapsed(t))
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const auto edge = ends(t, k);
+                    other_end[list_end[edge.first]++] = edge.second;
+                }
+        // Sorted: a hub of a hundred thousand edges must not cost their square.
+        for (std::size_t v = 0; v < vertices.size(); ++v)
+            std::sort(other_end.data() + list_begin[v], other_end.data() + list_end[v]);
+        const auto single = [&](const std::pair<std::uint32_t, std::uint32_t>& edge) {
+            const auto* list = other_end.data();
+            const auto [low, high] =
+                std::equal_range(list + list_begin[edge.first], list + list_end[edge.first], edge.second);
+            return high - low == 1;
+        };
         std::vector<std::uint8_t> marked(vertices.size(), 0);
         border_edges.assign(triangles.size(), 0);
         for (std::size_t t = 0; t < triangles.size(); ++t)
             for (std::size_t k = 0; k < 3; ++k) {
-                if (!std::binary_search(single.begin(), single.end(), key(triangles[t], k))) continue;
+                const auto edge = ends(triangles[t], k);
+                if (!single(edge)) continue;
                 border_edges[t] |= static_cast<std::uint8_t>(1U << k);
-                marked[welded[triangles[t][k]]] = marked[welded[triangles[t][(k + 1) % 3]]] = 1;
+                marked[edge.first] = marked[edge.second] = 1;
             }
-        border_vertices.resize(vertices.size());
-        for (std::size_t v = 0; v < vertices.size(); ++v) border_vertices[v] = marked[welded[v]];
+        border_vertices.assign(vertices.size(), 0);
+        for (std::size_t v = 0; v < vertices.size(); ++v)
+            if (welded[v] != none) border_vertices[v] = marked[welded[v]];
     }
 
     static void check_query(const Point& query, std::size_t index) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -227,6 +228,34 @@ TEST(SurfaceIndex, a_seam_of_doubled_vertices_is_not_a_border) {
     const SurfaceIndex index(v, std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}});
     EXPECT_FALSE(index.on_border(index.closest(Point(0.5, 0.5, 1))));
     EXPECT_TRUE(index.on_border(index.closest(Point(0.5, -1, 0))));
+}
+
+TEST(SurfaceIndex, vertices_of_no_triangle_make_no_border_and_no_seam) {
+    const auto s = height_field(10, 11);
+    auto with_unused = s;
+    // As a grid has them outside the face, only more: all the same NaN, so a table that compares them takes minutes.
+    with_unused.vertices_mm.resize(100'000, Point::Constant(std::numeric_limits<double>::quiet_NaN()));
+    with_unused.vertices_mm[200] = s.vertices_mm[0];
+    const SurfaceIndex plain(s.vertices_mm, s.triangles), index(with_unused.vertices_mm, with_unused.triangles);
+    for (const auto& vertex : s.vertices_mm)
+        EXPECT_EQ(index.on_border(index.closest(vertex)), plain.on_border(plain.closest(vertex))) << vertex.transpose();
+}
+
+TEST(SurfaceIndex, border_of_a_fan_is_its_rim_and_not_its_spokes) {
+    constexpr std::uint32_t blades = 1000;
+    std::vector<Point> v = {{0, 0, 0}};
+    std::vector<Triangle> fan;
+    for (std::uint32_t k = 0; k < blades; ++k) {
+        const double turn = 2 * std::numbers::pi * k / blades;
+        v.emplace_back(10 * std::cos(turn), 10 * std::sin(turn), 0);
+        fan.push_back({0, 1 + k, 1 + (k + 1) % blades});
+    }
+    const SurfaceIndex index(v, fan);
+    EXPECT_FALSE(index.on_border(index.closest(v[0])));
+    for (std::size_t k = 1; k < v.size(); ++k) {
+        EXPECT_TRUE(index.on_border(index.closest(v[k]))) << k;
+        EXPECT_FALSE(index.on_border(index.closest(Point(0.5 * v[k])))) << k;  // on a spoke
+    }
 }
 
 TEST(SurfaceIndex, a_ray_finds_the_nearest_of_two_sheets) {
