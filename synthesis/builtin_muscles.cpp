@@ -13,8 +13,29 @@ namespace {
 using geometry::Point;
 using geometry::Vector;
 
-/// How much of a pull follows the skin: the rest of its component along the normal stays as at the insertion.
-constexpr double slide_over_bone = 0.8;
+/// How much of a pull follows the skin away from the insertion: the rest of its component along the normal stays.
+constexpr double slide_over_bone = 0.9;
+/// How far from the insertion, as a share of the reach, the part of a pull across the skin is felt.
+constexpr double depth_of_attachment = 0.75;
+/// Tissue spreads what it gathers over about this length, mm.
+constexpr double spread_mm = 4.0;
+
+/// What lies between skin and bone, mm: rounded after the tallied depths of Stephan and Simpson (2008). Nothing on lids
+/// and lips' red, whose motion the sphincters describe.
+double tissue_depth_mm(const SheetVertex& p) {
+    using namespace place;
+    const double a = std::abs(p.s);
+    const auto patch = [&](double s, double t, double width, double height) {
+        return bell(a - s, width) * bell(p.t - t, height);
+    };
+    double depth = 5.5 + 7 * smooth_step(-12, -40, p.t);
+    depth += 6 * patch(48, -58, 16, 24) + 2 * patch(70, -60, 16, 26);
+    depth *= 1 - 0.75 * (1 - smooth_step(12, 21, a)) * smooth_step(-60, -52, p.t) * smooth_step(2, -12, p.t);  // nose
+    depth *= 1 - plateau(p.v + 8, 9, 20) * hump(p.across_eye, 1.9);
+    const double red = smooth_step(upper_lip + 2, upper_lip - 2, p.v) * smooth_step(lower_lip - 2, lower_lip + 2, p.v) *
+                       (1 - smooth_step(mouth_corner - 5, mouth_corner + 2, a));
+    return depth * (1 - red);
+}
 
 /// The line with its corners cut (Chaikin), so that a furrow bends like skin.
 std::vector<Place> rounded(std::vector<Place> line) {
@@ -51,7 +72,18 @@ MuscleModel::MuscleModel(const Sheet& sheet, std::vector<Point> mean_face_mm)
     : sheet_(sheet), mean_(std::move(mean_face_mm)) {
     std::vector<Point> base;
     for (const auto& p : sheet.vertices) base.push_back(p.base);
-    normals_ = geometry::vertex_normals(base, geometry::triangulate(sheet.faces));
+    triangles_ = geometry::triangulate(sheet.faces);
+    normals_ = geometry::vertex_normals(base, triangles_);
+    std::map<std::uint32_t, SheetLine> rows, columns;
+    for (std::uint32_t i = 0; i < sheet.vertices.size(); ++i) {
+        const auto& p = sheet.vertices[i];
+        depth_.push_back(tissue_depth_mm(p));
+        rows[p.row].add(i, p.s);
+        // A column that the mouth cuts is two lines: upper lip and lower lip.
+        columns[2 * p.column + (sheet.lower_lip_side[i] && std::abs(p.s) < place::mouth_corner ? 1 : 0)].add(i, -p.t);
+    }
+    for (auto* set : {&rows, &columns})
+        for (auto& [number, line] : *set) lines_.push_back(std::move(line));
     std::map<std::uint32_t, std::vector<std::uint32_t>> eye;
     std::map<std::uint32_t, std::array<std::uint32_t, 2>> seam;
     for (std::uint32_t i = 0; i < sheet.vertices.size(); ++i) {
@@ -76,11 +108,10 @@ void MuscleModel::pull(const Muscle& muscle, double side, std::span<const Point>
                        std::vector<Vector>& moved) const {
     const Place in = {side * muscle.insertion.s, muscle.insertion.t}, from = {side * muscle.origin.s, muscle.origin.t};
     const auto inserted = sheet_.nearest(in.s, in.t), origin = sheet_.nearest(from.s, from.t);
-    // The person's own muscle: longer ones pull further, and along their own line.
+    // Along the person's own line. How far a larger face moves is a variance of its own (VarianceOptions).
     const Vector mean_line = mean_[origin] - mean_[inserted], own_line = neutral_mm[origin] - neutral_mm[inserted];
-    const double stretch = std::clamp(own_line.norm() / mean_line.norm(), 0.7, 1.4);
     const Vector side_pull(side * muscle.pull_mm.x(), muscle.pull_mm.y(), muscle.pull_mm.z());
-    Vector pull_mm = stretch * (Eigen::Quaterniond::FromTwoVectors(mean_line, own_line) * side_pull);
+    Vector pull_mm = Eigen::Quaterniond::FromTwoVectors(mean_line, own_line) * side_pull;
     if (in.s == 0) pull_mm.x() = 0;
     const double normal_pull = pull_mm.dot(normals_[inserted]);
 
@@ -93,10 +124,49 @@ void MuscleModel::pull(const Muscle& muscle, double side, std::span<const Point>
         const double along = (u * ds + v * dt) / length, across = (u * dt - v * ds) / length;
         const double r = std::hypot(along / (along > 0 ? muscle.ahead_mm : muscle.behind_mm), across / muscle.side_mm);
         if (r >= 1) continue;
-        const double w = hump(r, 1) * lip_share(i, muscle.lip);
-        const double excess = pull_mm.dot(normals_[i]) - normal_pull;
-        moved[i] += w * (pull_mm - slide_over_bone * excess * normals_[i]);
+        const double share = lip_share(i, muscle.lip), along_skin = share * hump(r, 1);
+        const double across_skin = share * hump(r, depth_of_attachment) * normal_pull;
+        const double lifted = along_skin * pull_mm.dot(normals_[i]) - across_skin;
+        moved[i] += along_skin * pull_mm - slide_over_bone * lifted * normals_[i];
     }
+}
+
+/// Soft tissue keeps its volume: where a pull crowds the skin it rises, where it stretches the skin it thins.
+void MuscleModel::gather(std::span<const Point> neutral_mm, std::vector<Vector>& moved) const {
+    constexpr double most_crowded = 0.5, most_stretched = -0.4;
+    std::vector<double> before(moved.size(), 0), after(moved.size(), 0);
+    for (const auto& t : triangles_) {
+        if (moved[t[0]].isZero() && moved[t[1]].isZero() && moved[t[2]].isZero()) continue;
+        const Point &a = neutral_mm[t[0]], &b = neutral_mm[t[1]], &c = neutral_mm[t[2]];
+        const double was = (b - a).cross(c - a).norm();
+        const double is = (b - a + moved[t[1]] - moved[t[0]]).cross(c - a + moved[t[2]] - moved[t[0]]).norm();
+        for (const auto i : t) before[i] += was, after[i] += is;
+    }
+    std::vector<double> rise(moved.size(), 0);
+    for (std::size_t i = 0; i < moved.size(); ++i)
+        if (before[i] > 0)
+            rise[i] = depth_[i] *
+                      std::clamp(before[i] / std::max(after[i], 0.1 * before[i]) - 1, most_stretched, most_crowded);
+    for (const auto& line : lines_) smooth_along(line, rise);
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += rise[i] * normals_[i];
+}
+
+/// Solves (1 - spread^2 d2/dx2) f = values along a line of the sheet, with level ends: a low pass of constant length on
+/// uneven spacing.
+void MuscleModel::smooth_along(const SheetLine& line, std::vector<double>& values) const {
+    const std::size_t n = line.vertices.size();
+    std::vector<double> upper(n), right(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double before = i > 0 ? line.at[i] - line.at[i - 1] : 0,
+                     next = i + 1 < n ? line.at[i + 1] - line.at[i] : 0;
+        const double cell = 0.5 * (before + next), low = i > 0 ? spread_mm * spread_mm / (before * cell) : 0,
+                     high = i + 1 < n ? spread_mm * spread_mm / (next * cell) : 0;
+        const double diagonal = 1 + low + high - (i > 0 ? low * upper[i - 1] : 0);
+        upper[i] = high / diagonal;
+        right[i] = (values[line.vertices[i]] + (i > 0 ? low * right[i - 1] : 0)) / diagonal;
+    }
+    for (std::size_t i = n; i-- > 0;)
+        values[line.vertices[i]] = right[i] = right[i] + (i + 1 < n ? upper[i] * right[i + 1] : 0);
 }
 
 void MuscleModel::heap(const Motion& motion, double side, std::vector<Vector>& moved) const {
@@ -255,6 +325,7 @@ void MuscleModel::part_crossing_lips(std::span<const Point> neutral_mm, std::vec
 std::vector<Vector> MuscleModel::displacement_mm(const Motion& motion, std::span<const Point> neutral_mm) const {
     std::vector<Vector> moved(neutral_mm.size(), Vector::Zero());
     for (const auto& muscle : motion.muscles) pull(muscle, 1, neutral_mm, moved);
+    if (!motion.muscles.empty()) gather(neutral_mm, moved);
     heap(motion, 1, moved);
     const auto& own = motion.sphincter;
     if (own.upper_lid_down != 0 || own.lower_lid_up != 0 || own.upper_lid_lift_mm != 0)

@@ -18,7 +18,7 @@ struct Place {
 };
 
 /// A linear or sheet muscle (Waters 1987): skin round the insertion moves toward the origin; full at the insertion,
-/// none at `ahead` toward the origin, `behind` away from it and `side` across.
+/// none at `ahead` toward the origin, `behind` away from it and `side` across; the tissue under it keeps its volume.
 struct Muscle {
     Place insertion, origin;
     geometry::Vector pull_mm;  ///< at the insertion, on the mean face: lateral, up, forward
@@ -63,6 +63,13 @@ struct Motion {
 /// Name without side -> motion.
 [[nodiscard]] const std::map<std::string, Motion>& facial_motions();
 
+/// Neighbours along a row or a column of the sheet and where they lie on it, mm.
+struct SheetLine {
+    std::vector<std::uint32_t> vertices = {};
+    std::vector<double> at = {};
+    void add(std::uint32_t vertex, double position_mm) { vertices.push_back(vertex), at.push_back(position_mm); }
+};
+
 /// Moves the skin of a sheet. Holds what does not depend on the person.
 class MuscleModel {
 public:
@@ -76,6 +83,8 @@ private:
     [[nodiscard]] double lip_share(std::size_t vertex, Lip lip) const;
     void pull(const Muscle& muscle, double side, std::span<const geometry::Point> neutral_mm,
               std::vector<geometry::Vector>& moved) const;
+    void gather(std::span<const geometry::Point> neutral_mm, std::vector<geometry::Vector>& moved) const;
+    void smooth_along(const SheetLine& line, std::vector<double>& values) const;
     void heap(const Motion& motion, double side, std::vector<geometry::Vector>& moved) const;
     void move_lids(const Sphincter& lids, std::span<const geometry::Point> neutral_mm,
                    std::vector<geometry::Vector>& moved) const;
@@ -87,7 +96,10 @@ private:
 
     const Sheet& sheet_;
     std::vector<geometry::Point> mean_;
-    std::vector<geometry::Vector> normals_;           ///< of the bare mean face: smooth over nose, lips and lids
+    std::vector<geometry::Vector> normals_;  ///< of the bare mean face: smooth over nose, lips and lids
+    std::vector<geometry::Triangle> triangles_;
+    std::vector<double> depth_;                       ///< of the soft tissue that is gathered and thinned, mm
+    std::vector<SheetLine> lines_;                    ///< all rows, then all columns
     std::vector<double> held_;                        ///< 0 at the rim of the sheet, 1 inside
     std::vector<std::array<std::uint32_t, 2>> seam_;  ///< upper and lower vertex of the mouth line, column after column
     std::vector<std::vector<std::uint32_t>> eye_columns_;  ///< left eye: per column, vertices from upper lid fold down
