@@ -19,6 +19,7 @@ constexpr double slide_over_bone = 0.9;
 constexpr double depth_of_attachment = 0.75;
 /// Tissue spreads what it gathers over about this length, mm.
 constexpr double spread_mm = 4.0;
+constexpr int spread_rounds = 2;  ///< of smoothing along columns and rows in turn
 
 /// What lies between skin and bone, mm: rounded after the tallied depths of Stephan and Simpson (2008). Nothing on lids
 /// and lips' red, whose motion the sphincters describe.
@@ -29,7 +30,8 @@ double tissue_depth_mm(const SheetVertex& p) {
         return bell(a - s, width) * bell(p.t - t, height);
     };
     double depth = 5.5 + 7 * smooth_step(-12, -40, p.t);
-    depth += 6 * patch(48, -58, 16, 24) + 2 * patch(70, -60, 16, 26);
+    depth += 6 * patch(48, -58, 16, 24) + 2 * patch(70, -60, 16, 26) - 4.5 * patch(0, -64, 15, 7);
+    depth *= 1 - 0.9 * patch(mouth_corner, stomion, 6, 5.5);  // the knot of muscles at the corner keeps its form
     depth *= 1 - 0.75 * (1 - smooth_step(12, 21, a)) * smooth_step(-60, -52, p.t) * smooth_step(2, -12, p.t);  // nose
     depth *= 1 - plateau(p.v + 8, 9, 20) * hump(p.across_eye, 1.9);
     const double red = smooth_step(upper_lip + 2, upper_lip - 2, p.v) * smooth_step(lower_lip - 2, lower_lip + 2, p.v) *
@@ -82,7 +84,7 @@ MuscleModel::MuscleModel(const Sheet& sheet, std::vector<Point> mean_face_mm)
         // A column that the mouth cuts is two lines: upper lip and lower lip.
         columns[2 * p.column + (sheet.lower_lip_side[i] && std::abs(p.s) < place::mouth_corner ? 1 : 0)].add(i, -p.t);
     }
-    for (auto* set : {&rows, &columns})
+    for (auto* set : {&columns, &rows})  // rows last: they smooth over where the columns part
         for (auto& [number, line] : *set) lines_.push_back(std::move(line));
     std::map<std::uint32_t, std::vector<std::uint32_t>> eye;
     std::map<std::uint32_t, std::array<std::uint32_t, 2>> seam;
@@ -147,20 +149,22 @@ void MuscleModel::gather(std::span<const Point> neutral_mm, std::vector<Vector>&
         if (before[i] > 0)
             rise[i] = depth_[i] *
                       std::clamp(before[i] / std::max(after[i], 0.1 * before[i]) - 1, most_stretched, most_crowded);
-    for (const auto& line : lines_) smooth_along(line, rise);
+    for (int round = 0; round < spread_rounds; ++round)
+        for (const auto& line : lines_) smooth_along(line, rise);
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += rise[i] * normals_[i];
 }
 
 /// Solves (1 - spread^2 d2/dx2) f = values along a line of the sheet, with level ends: a low pass of constant length on
 /// uneven spacing.
 void MuscleModel::smooth_along(const SheetLine& line, std::vector<double>& values) const {
+    constexpr double square = spread_mm * spread_mm / spread_rounds;
     const std::size_t n = line.vertices.size();
     std::vector<double> upper(n), right(n);
     for (std::size_t i = 0; i < n; ++i) {
         const double before = i > 0 ? line.at[i] - line.at[i - 1] : 0,
                      next = i + 1 < n ? line.at[i + 1] - line.at[i] : 0;
-        const double cell = 0.5 * (before + next), low = i > 0 ? spread_mm * spread_mm / (before * cell) : 0,
-                     high = i + 1 < n ? spread_mm * spread_mm / (next * cell) : 0;
+        const double cell = 0.5 * (before + next), low = i > 0 ? square / (before * cell) : 0,
+                     high = i + 1 < n ? square / (next * cell) : 0;
         const double diagonal = 1 + low + high - (i > 0 ? low * upper[i - 1] : 0);
         upper[i] = high / diagonal;
         right[i] = (values[line.vertices[i]] + (i > 0 ? low * right[i - 1] : 0)) / diagonal;
@@ -214,10 +218,9 @@ void MuscleModel::move_lids(const Sphincter& lids, std::span<const Point> neutra
         const double up_mm =
             lids.upper_lid_lift_mm * width * std::max(0.0, 1 - 0.5 * q * q) - lids.upper_lid_down * opening;
         const double low_mm = lids.lower_lid_up * opening;
-        const double taper = std::sqrt(std::max(0.0, 1 - q * q));
         const auto thickness = [&](double v) {  // of the lids over the eyeball, as the neutral surface has it
-            return (0.35 + 1.25 * taper) * smooth_step(upper_lid - 0.2, upper_lid + 0.9, v) * smooth_step(8, 3, v) +
-                   (0.35 + 0.75 * taper) * smooth_step(lower_lid + 0.2, lower_lid - 0.9, v) * smooth_step(-21, -15, v);
+            const auto lid = lid_thickness_mm(q, v);
+            return lid.upper * smooth_step(8, 3, v) + lid.lower * smooth_step(-21, -15, v);
         };
         for (const auto i : column) {
             const double v = sheet_.vertices[i].v;
@@ -311,6 +314,14 @@ void MuscleModel::part_crossing_lips(std::span<const Point> neutral_mm, std::vec
         any = any || o > 0;
     }
     if (!any) return;
+    // The skin beyond a corner gives way with it.
+    constexpr double beyond = 9;
+    const double at_corner[2] = {overlap.begin()->second, overlap.rbegin()->second};
+    for (std::uint32_t i = 0; i < sheet_.vertices.size(); ++i) {
+        const auto& p = sheet_.vertices[i];
+        const double out = std::abs(p.s) - mouth_corner;
+        if (out >= 0 && out < beyond) overlap[p.column] = at_corner[p.s > 0 ? 1 : 0] * hump(out, beyond);
+    }
     for (std::size_t i = 0; i < moved.size(); ++i) {
         const auto& p = sheet_.vertices[i];
         const auto o = overlap.find(p.column);

@@ -99,7 +99,7 @@ private:
     std::vector<geometry::Vector> normals_;  ///< of the bare mean face: smooth over nose, lips and lids
     std::vector<geometry::Triangle> triangles_;
     std::vector<double> depth_;                       ///< of the soft tissue that is gathered and thinned, mm
-    std::vector<SheetLine> lines_;                    ///< all rows, then all columns
+    std::vector<SheetLine> lines_;                    ///< all columns, then all rows
     std::vector<double> held_;                        ///< 0 at the rim of the sheet, 1 inside
     std::vector<std::array<std::uint32_t, 2>> seam_;  ///< upper and lower vertex of the mouth line, column after column
     std::vector<std::vector<std::uint32_t>> eye_columns_;  ///< left eye: per column, vertices from upper lid fold down

@@ -174,9 +174,6 @@ private:
     std::vector<const Curve*> lines_;
 };
 
-/// The middle line of the brow over the nasion.
-double brow_line(double a) { return 9.5 + 6.5 * smooth_step(8, 34, a) - 6.5 * smooth_step(34, 58, a); }
-
 std::string region_of(const SheetVertex& p) {
     using namespace place;
     const double a = std::abs(p.s);
@@ -200,6 +197,15 @@ std::uint32_t Sheet::nearest(double s, double t) const {
     }
     return best;
 }
+
+LidThickness lid_thickness_mm(double across_eye, double v) {
+    using namespace place;
+    const double taper = std::sqrt(std::max(0.0, 1 - across_eye * across_eye)), rim = 0.35 * std::min(1.0, 2.5 * taper);
+    return {(rim + 1.25 * taper) * smooth_step(upper_lid - 0.2, upper_lid + 0.9, v),
+            (rim + 0.75 * taper) * smooth_step(lower_lid + 0.2, lower_lid - 0.9, v)};
+}
+
+double brow_line(double a) { return 11 + 4.5 * smooth_step(8, 34, a) - 6 * smooth_step(34, 58, a); }
 
 Sheet make_sheet() {
     using namespace place;

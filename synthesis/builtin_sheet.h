@@ -50,6 +50,16 @@ struct Sheet {
     [[nodiscard]] std::uint32_t nearest(double s, double t) const;
 };
 
+/// How far the lids stand over the eyeball; nothing within the opening nor at its corners, where rows of the sheet
+/// meet.
+struct LidThickness {
+    double upper, lower;
+};
+[[nodiscard]] LidThickness lid_thickness_mm(double across_eye, double v);
+
+/// Height of the middle of the brow over the nasion at `a` mm from the midline of the mean face.
+[[nodiscard]] double brow_line(double a);
+
 [[nodiscard]] Sheet make_sheet();
 
 }  // namespace mimik::synthesis

@@ -54,26 +54,28 @@ struct NoseSection {
 };
 NoseSection nose_section(double t) {
     static const MonotoneCurve width({-60, -55.3, -53, -50.5, -48.5, -46, -43, -34, -20, -9, 0, 8, 16},
-                                     {24, 15, 8.5, 8.5, 11.5, 15, 17.3, 19.3, 22, 21.5, 20, 20, 21});
-    static const MonotoneCurve shoulder({-50, -43, -37, -30, -22, 0, 10, 26, 90},
-                                        {1.5, 1.4, 1.7, 2.6, 3.3, 3.5, 3, 2, 2});
+                                     {24, 15, 9, 9.5, 12, 14.5, 16, 20, 23, 21.5, 20.5, 21, 22});
+    static const MonotoneCurve shoulder({-50, -46, -43, -37, -30, -22, -9, 0, 10, 26, 90},
+                                        {1.6, 2.0, 2.4, 3.2, 5.5, 8.2, 9.0, 7.5, 4.4, 2.2, 2});
     return {width(t), shoulder(t)};
 }
 
 double compact(double q, double shoulder) { return q * q >= 1 ? 0 : std::pow(1 - q * q, shoulder); }
 
-/// How far a midline height reaches sideways on the lower face: muzzle, lips, sulcus, chin.
-double lower_section(double s, double v, double chin_reach) {
+/// As compact, but flatter in the middle: the back of a nose is a strip, not an edge.
+double ridge_section(double q, double shoulder) { return q >= 1 ? 0 : std::pow(1 - std::pow(q, 2.4), shoulder); }
+
+/// How far the relief of the midline over the muzzle reaches sideways on the lower face: lips, sulcus, chin.
+double relief_section(double a, double v, double chin_reach) {
     using namespace place;
-    const double a = std::abs(s);
-    const double muzzle = compact(a / 27, 1.5);
-    const double lips = compact(a / (mouth_corner + 0.4), 0.95);
-    const double sulcus_part = compact(a / 26, 1.5);
+    const double lip_skin = compact(a / 27, 1.7);
+    const double lips = compact(a / (mouth_corner + 0.2), 1.1);
+    const double below = compact(a / 27, 1.7);
     const double chin = compact(a / chin_reach, 1.6);
-    if (v > upper_lip) return muzzle + (lips - muzzle) * smooth_step(upper_lip + 6, upper_lip, v);
+    if (v > upper_lip) return lip_skin + (lips - lip_skin) * smooth_step(upper_lip + 6, upper_lip, v);
     if (v > lower_lip) return lips;
-    if (v > sulcus) return lips + (sulcus_part - lips) * smooth_step(lower_lip, sulcus + 2, v);
-    return sulcus_part + (chin - sulcus_part) * smooth_step(sulcus, pogonion + 4, v);
+    if (v > sulcus) return lips + (below - lips) * smooth_step(lower_lip, sulcus + 2, v);
+    return below + (chin - below) * smooth_step(sulcus, pogonion + 4, v);
 }
 
 /// What the profile, the measurements and the forms make of the mean face.
@@ -102,6 +104,14 @@ public:
         for (std::size_t r = 0; r < sheet.row_t.size(); ++r)
             row_height_.push_back(midline_at(sheet.row_v[r], sheet.row_t[r]) -
                                   bare_z(0, sheet.row_t[r], sheet.row_midline_base_z_mm[r]));
+        const auto height_at = [&](double v) {
+            std::size_t best = 0;
+            for (std::size_t r = 1; r < sheet.row_v.size(); ++r)
+                if (std::abs(sheet.row_v[r] - v) < std::abs(sheet.row_v[best] - v)) best = r;
+            return row_height_[best];
+        };
+        muzzle_top_ = height_at(-58);
+        muzzle_bottom_ = height_at(place::sulcus);
         std::vector<double> t, h;
         for (std::size_t r = 0; r < sheet.row_t.size() && sheet.row_v[r] > -60; ++r) {
             t.push_back(-sheet.row_t[r]);
@@ -165,11 +175,11 @@ private:
                        sn - 0.5,
                        sn,
                        sn + 0.43 * (prn - sn),
-                       sn + 0.80 * (prn - sn),
-                       prn - 0.7,
+                       sn + 0.86 * (prn - sn),
+                       prn - 0.5,
                        prn,
-                       0.85 * prn + 0.2,
-                       0.64 * prn + 0.8 + 0.8 * hump,
+                       0.89 * prn + 0.2,
+                       0.64 * prn + 0.9 + 0.8 * hump,
                        0.42 * prn + 1.2 + 1.3 * hump,
                        0.17 * prn + 0.8 + 0.7 * hump,
                        0,
@@ -200,7 +210,7 @@ private:
 
     [[nodiscard]] double bare_z(double a, double t, double z) const {
         const double depth = (face_[Measurement::upper_face_depth] - 126) / 126;
-        return z * (1 + 1.15 * depth * smooth_step(-10, -70, z)) + base_shift_(t) * hump(a, 75);
+        return z * (1 + 1.15 * depth * smooth_step(-10, -70, z)) + base_shift_(t) * hump(a, 60);
     }
 
     [[nodiscard]] double person_x(double x, double y) const {
@@ -220,10 +230,9 @@ private:
         z -= (0.3 + 1.2 * face_[Form::temple_hollow]) * blob(66, 18, 10, 15);
         z += (0.5 + 0.9 * face_[Form::brow_ridge]) * blob(26, 13, 15, 6);
         // Brow hair and the fat under it stand out a little.
-        const double brow = 9.5 + 6.5 * smooth_step(8, 34, a) - 6.5 * smooth_step(34, 58, a);
-        z += 0.7 * bell(t - brow, 2.6) * smooth_step(8, 14, a) * (1 - smooth_step(46, 56, a));
+        z += 0.7 * bell(t - brow_line(a), 2.6) * smooth_step(8, 14, a) * (1 - smooth_step(46, 56, a));
         // Tear trough, from the inner canthus down and out.
-        z -= (0.5 + 0.35 * face_[Form::under_eye]) * bell(t + 13.5 + 0.55 * (a - 15), 3.2) * smooth_step(9, 16, a) *
+        z -= (0.5 + 0.3 * face_[Form::under_eye]) * bell(t + 14.5 + 0.55 * (a - 15), 4.6) * smooth_step(9, 16, a) *
              (1 - smooth_step(24, 42, a));
         // Nasolabial fold: a soft furrow with the cheek standing over it.
         const double fold = 19 + 0.36 * (-47 - t);
@@ -234,18 +243,27 @@ private:
         return z;
     }
 
+    /// The jaws carry the whole muzzle forward; lips, sulcus and chin stand out from it near the midline only.
+    [[nodiscard]] double lower_height(std::uint32_t row, double a, double v, double t) const {
+        const auto muzzle = [&](double height) {
+            return muzzle_top_ + smooth_step(-58, place::sulcus, height) * (muzzle_bottom_ - muzzle_top_);
+        };
+        return muzzle(t) * compact(a / 44, 2.4) + (row_height_[row] - muzzle(sheet_.row_t[row])) *
+                                                      relief_section(a, v, 25 + 2.5 * face_[Form::chin_width]);
+    }
+
     [[nodiscard]] double with_nose(double a, double t, double v, std::uint32_t row, double z) const {
         using namespace place;
-        if (v <= -58) return z + row_height_[row] * lower_section(a, v, 25 + 2.5 * face_[Form::chin_width]);
+        if (v <= -58) return z + lower_height(row, a, v, t);
         const double height = nose_height_(-t);
         const auto [half_width, shoulder] = nose_section(t);
         const double tip = 1 + 0.09 * face_[Form::nose_tip_width] * bell(t + 43, 8);
         double reach = half_width * tip;
         if (t > 4) reach += (60 - reach) * smooth_step(4, 26, t);  // from the root out over the whole forehead
-        double ridge = z + height * compact(a / reach, shoulder);
+        double ridge = z + height * ridge_section(a / reach, shoulder);
         if (v < -55.3) {
             const double w = smooth_step(-55.3, -58, v);
-            ridge += w * (z + row_height_[row] * lower_section(a, v, 25) - ridge);
+            ridge += w * (z + lower_height(row, a, v, t) - ridge);
         }
         // The wing: an ellipsoid beside the tip, cut off steeply where it meets the cheek.
         const double wing_t = -45.8 + 0.7 * face_[Form::wing_height];
@@ -256,7 +274,7 @@ private:
         }
         // Alar crease, and the nostril.
         const double crease = std::hypot((a - 11.4) / 7.3, (t - wing_t) / (t > wing_t ? 8.6 : 6.6));
-        ridge -= 0.65 * bell(crease - 1, 0.14) * smooth_step(11, 16, a) * smooth_step(-54, -50, t) *
+        ridge -= 0.5 * bell(crease - 0.98, 0.17) * smooth_step(11, 16, a) * smooth_step(-54, -50, t) *
                  smooth_step(-37, -43, t);
         const double hole = std::hypot((a - 6.9) / 3.2, (t + 51.7) / 1.9);
         ridge -= 5.0 * (1 - smooth_step(0.35, 1.25, hole));
@@ -269,8 +287,9 @@ private:
         // Philtral crests from the columella to the bow's peaks.
         const double up = (v - upper_lip) / (subnasale - upper_lip);
         const double crest = philtrum_crest - 2.0 * std::clamp(up, 0.0, 1.0);
-        z += (0.75 + 0.25 * face_[Form::philtrum_depth]) * bell(a - crest, 1.7) * (1 - bell(a, 1.6)) *
-             smooth_step(subnasale + 1, -60, v) * (1 - smooth_step(upper_lip + 0.5, upper_lip - 3, v));
+        z += (0.5 + 0.2 * face_[Form::philtrum_depth]) * (1 - 0.45 * std::clamp(up, 0.0, 1.0)) * bell(a - crest, 1.9) *
+             (1 - bell(a, 1.6)) * smooth_step(subnasale + 1, -60, v) *
+             (1 - smooth_step(upper_lip + 0.5, upper_lip - 3, v));
         // White roll along the border of the red, and the pit and the muscle knot at the corner.
         const double mouth = 1 - smooth_step(12, mouth_corner + 1, a);
         z += 0.3 * mouth * (1 - bell(a, 2)) * (bell(v - upper_lip - 0.6, 0.8) + 0.6 * bell(v - lower_lip + 0.6, 0.9));
@@ -298,25 +317,23 @@ private:
         const double r2 = q * q * 0.84 + (dy / tall) * (dy / tall);
         double ball = -22.8 - deep + 12.4 * std::sqrt(std::max(0.03, 1 - r2)) - 2.9 * q;
         ball -= 30 * smooth_step(0.93, 1.5, std::sqrt(r2));
-        const double taper = std::pow(std::max(0.0, 1 - q * q), 0.5);
-        const double upper_edge = smooth_step(upper_lid - 0.2, upper_lid + 0.9, v),
-                     lower_edge = smooth_step(lower_lid + 0.2, lower_lid - 0.9, v);
-        const double lid = (0.35 + 1.25 * taper) * upper_edge + (0.35 + 0.75 * taper) * lower_edge;
+        const auto lid = lid_thickness_mm(q, v);
         const bool open = v < upper_lid && v > lower_lid && std::abs(q) < 1;
-        double eye_z = ball + lid;
+        double eye_z = ball + lid.upper + lid.lower;
         if (open) {  // cornea
             const double c = std::hypot(q * 13.8 + 0.5, dy) / 6.0;
             if (c < 1) eye_z += 1.1 * (1 - c * c) * (1 - c * c);
         }
         const double socket = z - deep * bell(q, 0.8) * hump(above_middle, 16);
-        z = smooth_max(socket, eye_z, 3.2);
+        // The lower lid runs out into the cheek, the upper one dives under the brow.
+        z = smooth_max(socket, eye_z, 3.2 + 6.8 * smooth_step(0, -12, above_middle));
         // Fold of the upper lid: a crease, and the skin over it that hangs forward.
         const double fold = v - (upper_lid + 4.3 - 1.2 * q * q);
         const double along = hump(q - 0.05, 1.2);
         const double hood = 1 + 0.3 * face_[Form::lid_hooding];
         z += along * (-0.8 * bell(fold, 0.95) + 0.8 * hood * bell(fold - 3.6, 2.2));
         // Pouch and furrow of the lower lid.
-        z += 0.2 * along * bell(v - (lower_lid - 2.4), 1.5) - 0.25 * along * bell(v - (lower_lid - 6.0), 1.6);
+        z += 0.15 * along * bell(v - (lower_lid - 2.4), 1.5) - 0.15 * along * bell(v - (lower_lid - 6.0), 2.2);
     }
 
     const Sheet& sheet_;
@@ -327,6 +344,7 @@ private:
     Table base_shift_;
     std::array<MonotoneCurve, 5> levels_;
     std::vector<double> row_height_;
+    double muzzle_top_ = 0, muzzle_bottom_ = 0;
     MonotoneCurve nose_height_;
 };
 

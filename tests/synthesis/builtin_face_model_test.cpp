@@ -163,14 +163,14 @@ TEST(BuiltinFace, drawn_faces_have_the_populations_means_and_spreads) {
 }
 
 /// Triangles that a scanner in front would see from behind, away from the sides of the jaw and the neck.
-int turned_away(const std::vector<Point>& face, const std::string& but_not = "") {
+int turned_away(const std::vector<Point>& face, double side_mm, const std::string& but_not = "") {
     int count = 0;
     for (const auto& t : geometry::triangulate(model().faces())) {
         const Vector normal = (face[t[1]] - face[t[0]]).cross(face[t[2]] - face[t[0]]);
         EXPECT_GT(normal.norm(), 1e-4);  // mm^2: a triangle of the corner of the mouth has 0.01
         if (normal.z() > 0) continue;
         const auto& p = sheet().vertices[t[0]];
-        const bool side = std::abs(p.s) > 60 || p.v < -106;
+        const bool side = std::abs(p.s) > side_mm || p.v < -106;
         const bool lid = std::abs(p.across_eye) < 1.45 && p.v > -26 && p.v < 12;
         const bool lip = std::abs(p.s) < 30 && p.v < -64 && p.v > -92;
         if (!side && !(but_not == "lid" && lid) && !(but_not == "lip" && lip)) ++count;
@@ -180,8 +180,8 @@ int turned_away(const std::vector<Point>& face, const std::string& but_not = "")
 
 TEST(BuiltinFace, no_triangle_of_a_drawn_face_is_degenerate_or_turned_away) {
     for (std::uint64_t seed = 0; seed < 6; ++seed)
-        EXPECT_EQ(turned_away(model().neutral_mm(model().draw_identity(seed, seed % 2 ? Sex::male : Sex::female, 1))),
-                  0)
+        EXPECT_EQ(
+            turned_away(model().neutral_mm(model().draw_identity(seed, seed % 2 ? Sex::male : Sex::female, 1)), 60), 0)
             << seed;
 }
 
@@ -192,10 +192,12 @@ TEST(BuiltinFace, no_shape_folds_the_skin_over) {
         const auto moved = model().shape_displacement_mm(id, name);
         auto face = neutral;
         for (std::size_t i = 0; i < face.size(); ++i) face[i] += moved[i];
-        // A closing lid hangs over the eye, and the corner of the mouth turns in: there alone overhang is right.
-        EXPECT_EQ(turned_away(face, name.starts_with("eye")     ? "lid"
-                                    : name.starts_with("mouth") ? "lip"
-                                                                : ""),
+        // A closing lid hangs over the eye, the corner of the mouth turns in, and a raised cheek hides what lies behind
+        // it (56 mm from the midline along the skin, where the face turns to the side): there alone overhang is right.
+        EXPECT_EQ(turned_away(face, 56,
+                              name.starts_with("eye")                                      ? "lid"
+                              : name.starts_with("mouth") || name.starts_with("noseSneer") ? "lip"
+                                                                                           : ""),
                   0)
             << name;
     }
@@ -231,7 +233,9 @@ TEST(BuiltinFace, shapes_move_the_landmarks_that_their_muscles_hold) {
 TEST(BuiltinFace, an_upper_lip_stays_when_the_lower_one_is_pulled_down) {
     const auto id = mean_face(Sex::female);
     const auto left = model().shape_displacement_mm(id, "mouthLowerDown_L");
-    EXPECT_LT(left[model().landmark_vertices().at("upper_lip_inner")].norm(), 1e-12);
+    // What the lower lip gathers at the corners spreads over 4 mm: 25 mm away, a few hundredths of a millimetre at
+    // most.
+    EXPECT_LT(left[model().landmark_vertices().at("upper_lip_inner")].norm(), 0.03);
     double lower = 0;
     for (std::size_t i = 0; i < left.size(); ++i)
         if (sheet().vertices[i].v == place::stomion && sheet().lower_lip_side[i]) lower = std::min(lower, left[i].y());
