@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -18,39 +17,25 @@ using geometry::Vector;
 
 namespace {
 
-/// Grid vertices that a mesh keeps, in order.
-std::vector<std::uint32_t> kept_vertices(const geometry::QuadGrid& grid, geometry::BridgedVertices bridged) {
-    std::vector<std::uint32_t> kept;
-    for (std::uint32_t v = 0; v < grid.size(); ++v)
-        if (bridged == geometry::BridgedVertices::keep ? grid.inside(v) : grid.measured(v)) kept.push_back(v);
-    return kept;
-}
-
 /// The grid with the given displacement of its neutral vertices, in the frame asked for.
 Mesh mesh_of(const geometry::QuadGrid& neutral, const std::vector<Vector>& displacement_mm, const TargetFace& target,
-             const ExportOptions& options) {
+             const ExportOptions& options, std::vector<std::uint32_t>* kept_vertices = nullptr) {
     const bool average = options.frame == OutputFrame::average;
-    const auto kept = kept_vertices(neutral, options.bridged);
-    std::vector<std::uint32_t> place(neutral.size(), std::numeric_limits<std::uint32_t>::max());
-    Mesh mesh;
-    geometry::VertexAttribute displacement{"displacement_mm", 3, {}}, origin{"origin", 1, {}};
-    for (const auto v : kept) {
-        place[v] = static_cast<std::uint32_t>(mesh.vertices_mm.size());
-        const geometry::Point moved = neutral.vertices_mm[v] + displacement_mm[v];
-        mesh.vertices_mm.push_back(average ? geometry::Point(target.average_from_scan() * moved) : moved);
-        const Vector d =
-            average ? Vector(target.average_from_scan().linear() * displacement_mm[v]) : displacement_mm[v];
+    std::vector<std::uint32_t> kept;
+    Mesh mesh = geometry::to_mesh(neutral, options.bridged, &kept);
+    geometry::VertexAttribute displacement{"displacement_mm", 3, {}};
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        Vector d = displacement_mm[kept[k]];
+        auto& position_mm = mesh.vertices_mm[k];
+        position_mm += d;
+        if (average) {
+            position_mm = target.average_from_scan() * position_mm;
+            d = target.average_from_scan().linear() * d;
+        }
         displacement.values.insert(displacement.values.end(), d.begin(), d.end());
-        origin.values.push_back(static_cast<double>(neutral.origin[v]));
-        if (!neutral.texture_coordinates.empty()) mesh.texture_coordinates.push_back(neutral.texture_coordinates[v]);
     }
-    const auto quads = geometry::quads(neutral, options.bridged);
-    for (std::size_t f = 0; f < quads.size(); ++f) {
-        std::vector<std::uint32_t> corners;
-        for (const auto v : quads[f]) corners.push_back(place[v]);
-        mesh.faces.add(corners);
-    }
-    mesh.attributes = {std::move(displacement), std::move(origin)};
+    mesh.attributes.insert(mesh.attributes.begin(), std::move(displacement));
+    if (kept_vertices) *kept_vertices = std::move(kept);
     return mesh;
 }
 
@@ -77,12 +62,12 @@ void write_animated_face(const std::filesystem::path& file, const AnimatedFace& 
                                          file.string(), names.size(), animated.fields_mm.size()));
         const auto& grid = target.face().grid;
         const std::vector<Vector> still(grid.size(), Vector::Zero());
-        const auto neutral = mesh_of(grid, still, target, options);
+        std::vector<std::uint32_t> kept;
+        const auto neutral = mesh_of(grid, still, target, options, &kept);
         std::vector<std::uint32_t> source;
         auto mesh = geometry::glb_mesh(neutral, &source);
         mesh.name = target.face().id.subject;
         if (!texture_file.empty()) mesh.texture_png = geometry::read_bytes(texture_file);
-        const auto kept = kept_vertices(grid, options.bridged);
         const Eigen::Matrix3d turn = options.frame == OutputFrame::average
                                          ? Eigen::Matrix3d(target.average_from_scan().linear())
                                          : Eigen::Matrix3d(Eigen::Matrix3d::Identity());

@@ -31,10 +31,7 @@ struct Arguments {
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
     const auto catalogue = arguments.method.catalogue();
-    for (const auto& subject : {arguments.source, arguments.target})
-        if (workspace.hidden(subject))
-            throw InputError(fmt::format(
-                "subject '{}' stands in unallowed_subjects.txt and must not be shown; choose another", subject));
+    for (const auto& subject : {arguments.source, arguments.target}) workspace.refuse_hidden(subject);
 
     const auto model_options = arguments.method.model_options();
     auto animation_options = arguments.method.animation_options();

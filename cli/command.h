@@ -29,6 +29,7 @@ enum ExitCode : int { exit_done = 0, exit_done_with_failures = 1, exit_bad_input
 /// the subcommand; when it is chosen, its callback stores what main returns in `exit_code`.
 void add_scans_command(CLI::App& app, int& exit_code);
 void add_synthesize_command(CLI::App& app, int& exit_code);
+void add_panels_command(CLI::App& app, int& exit_code);
 void add_preprocess_command(CLI::App& app, int& exit_code);
 void add_regions_command(CLI::App& app, int& exit_code);
 void add_model_command(CLI::App& app, int& exit_code);

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_evaluate_command(app, exit_code);
     mimik::cli::add_figure_command(app, exit_code);
     mimik::cli::add_model_command(app, exit_code);
+    mimik::cli::add_panels_command(app, exit_code);
     mimik::cli::add_preprocess_command(app, exit_code);
     mimik::cli::add_synthesize_command(app, exit_code);
     mimik::cli::add_regions_command(app, exit_code);

@@ -21,6 +21,13 @@ struct ScoredTarget {
     std::optional<geometry::SurfaceIndex> expressive;  ///< the real expressive scan, in the neutral's scanner frame
 };
 
+/// The measured vertices of `neutral` that see the real expressive scan, and what doing nothing scores there.
+/// @param zone  per vertex of `neutral`: 1 in the active zone, as carry_zone
+/// @throws InputError if the expressive scan has no surface.
+[[nodiscard]] ScoredTarget scored_target(const geometry::QuadGrid& neutral, const geometry::QuadGrid& expressive,
+                                         const geometry::Transform& neutral_from_expressive,
+                                         const std::vector<char>& zone);
+
 /// One method on one case; means over the scored vertices.
 struct CaseResult {
     bool done = false;  ///< false: no such case

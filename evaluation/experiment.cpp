@@ -216,35 +216,12 @@ ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const
         const auto score_target = [&](std::size_t t) {
             const auto& own = there[t];
             const Face& neutral = neutrals[own.subject];
-            ScoredTarget target;
-            {
-                geometry::Transform neutral_from_expressive = own.expressive.neutral_from_scan;
-                if (has_truth)
-                    neutral_from_expressive = true_neutrals[own.subject].scanner_from_head *
-                                              own.truth.scanner_from_head.inverse(Eigen::Isometry);
-                std::vector<Point> vertices;
-                for (const auto& p : own.expressive.grid.vertices_mm)
-                    vertices.emplace_back(neutral_from_expressive * p);
-                target.expressive.emplace(
-                    vertices, geometry::triangles(own.expressive.grid, geometry::BridgedVertices::leave_out));
-            }
-            const auto zone_here = carry_zone(zone, average, neutral);
-            {
-                std::vector<std::uint32_t> measured;
-                std::vector<Point> queries;
-                for (std::uint32_t v = 0; v < neutral.grid.size(); ++v)
-                    if (neutral.grid.measured(v)) {
-                        measured.push_back(v);
-                        queries.push_back(neutral.grid.vertices_mm[v]);
-                    }
-                const auto hits = target.expressive->closest(queries);
-                for (std::size_t k = 0; k < measured.size(); ++k) {
-                    if (target.expressive->on_border(hits[k])) continue;
-                    target.vertices.push_back(measured[k]);
-                    target.in_zone.push_back(zone_here[measured[k]]);
-                    target.nothing_mm.push_back(hits[k].distance_mm);
-                }
-            }
+            geometry::Transform neutral_from_expressive = own.expressive.neutral_from_scan;
+            if (has_truth)
+                neutral_from_expressive =
+                    true_neutrals[own.subject].scanner_from_head * own.truth.scanner_from_head.inverse(Eigen::Isometry);
+            auto target = scored_target(neutral.grid, own.expressive.grid, neutral_from_expressive,
+                                        carry_zone(zone, average, neutral));
             MaterialPoints material;
             Eigen::Matrix3d scanner_from_head = Eigen::Matrix3d::Identity();
             if (has_truth) {

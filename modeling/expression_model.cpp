@@ -89,7 +89,7 @@ bool wanted(ControlKind kind, const ModelOptions& options) {
 
 ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::string& expression,
                                    const AverageFace& average, const Face& neutral, const Face& expressive,
-                                   const ModelOptions& options) {
+                                   const ModelOptions& options, std::vector<FollowedPoint>* followed) {
     options.check();
     const auto units = catalogue.resolve(expression);
     const geometry::ThinPlateSplineOptions spline{.kernel = options.kernel, .smoothing = options.smoothing};
@@ -150,6 +150,9 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
         const Point found = expressive_surface.nearest(carried, options.snap_to_vertices);
         model.points.push_back(
             {control.name, control.kind, control.position_mm, found - controls_on_source[k], (found - carried).norm()});
+        if (followed)
+            followed->push_back({control.name, control.kind, to_average.inverse() * controls_on_source[k],
+                                 to_average_too.inverse() * found});
     }
     if (options.anchors)
         for (const auto& anchor : placed.anchors)

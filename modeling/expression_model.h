@@ -65,6 +65,14 @@ struct ExpressionModel {
     [[nodiscard]] double largest_displacement_mm() const;
 };
 
+/// One control point of a model on the two scans that it was measured from, for figures and for those who want to know.
+struct FollowedPoint {
+    std::string name;
+    ControlKind kind = ControlKind::muscle;
+    geometry::Point neutral_mm = geometry::Point::Zero();     ///< scanner frame of the neutral scan
+    geometry::Point expressive_mm = geometry::Point::Zero();  ///< scanner frame of the expressive scan
+};
+
 /// Places the expression's points on the source's neutral face, follows them to its expressive scan (landmark spline of
 /// Eq. 5.5, then the nearest point of the expressive surface) and takes the differences (Eq. 5.6).
 /// @param expression  "12", "4L", "HAPPY": what the scan shows, or one side of it.
@@ -74,7 +82,8 @@ struct ExpressionModel {
                                                  const preprocessing::AverageFace& average,
                                                  const preprocessing::Face& neutral,
                                                  const preprocessing::Face& expressive,
-                                                 const ModelOptions& options = {});
+                                                 const ModelOptions& options = {},
+                                                 std::vector<FollowedPoint>* followed = nullptr);
 
 /// Source-independent AU (thesis 7.2): mean displacement of every point over models that stand on the average face. A
 /// point that a model left out is averaged over the rest. @throws InputError if the models do not go together.

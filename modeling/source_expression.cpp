@@ -26,6 +26,16 @@ std::optional<ScanId> scan_that_shows(const Workspace& workspace, const std::str
 
 }  // namespace
 
+ScanId source_scan(const Workspace& workspace, const std::string& subject, const std::string& expression) {
+    (void)workspace.neutral(subject);  // names the subjects there are if this one is none of them
+    if (auto id = scan_that_shows(workspace, subject, expression)) return *id;
+    std::vector<std::string> codes;
+    for (const auto& scan : workspace.scans())
+        if (scan.subject == subject && !scan.neutral()) codes.push_back(scan.code);
+    throw InputError(fmt::format("{}: subject '{}' has no scan of expression '{}'; there are: {}",
+                                 workspace.root().string(), subject, expression, fmt::join(codes, ", ")));
+}
+
 ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatalogue& catalogue,
                                      const std::string& expression, const ExpressionSource& source,
                                      const ModelOptions& options) {
@@ -33,22 +43,8 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
         const auto neutral = workspace.face(workspace.neutral(subject));
         return measure_expression(catalogue, expression, workspace.average(), neutral, workspace.face(id), options);
     };
-    if (workspace.hidden(source.subject))
-        throw InputError(
-            fmt::format("subject '{}' stands in unallowed_subjects.txt; choose another source", source.subject));
-    if (source.subject != "mean") {
-        (void)workspace.neutral(source.subject);  // names the subjects there are if this one is none of them
-        const auto id = scan_that_shows(workspace, source.subject, expression);
-        if (!id) {
-            std::vector<std::string> codes;
-            for (const auto& scan : workspace.scans())
-                if (scan.subject == source.subject && !scan.neutral()) codes.push_back(scan.code);
-            throw InputError(fmt::format("{}: subject '{}' has no scan of expression '{}'; there are: {}",
-                                         workspace.root().string(), source.subject, expression,
-                                         fmt::join(codes, ", ")));
-        }
-        return measure(source.subject, *id);
-    }
+    workspace.refuse_hidden(source.subject);
+    if (source.subject != "mean") return measure(source.subject, source_scan(workspace, source.subject, expression));
 
     std::vector<std::string> subjects;
     std::vector<ScanId> ids;

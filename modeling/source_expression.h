@@ -15,6 +15,11 @@ struct ExpressionSource {
     std::vector<std::string> excluded;  ///< subjects that a mean leaves out: the target
 };
 
+/// The scan of `subject` that an expression is taken from: of it, or for one side ("12L") of both sides, if the subject
+/// was not asked for one. @throws InputError if the subject or the expression is missing, listing what there is.
+[[nodiscard]] database::ScanId source_scan(const preprocessing::Workspace& workspace, const std::string& subject,
+                                           const std::string& expression);
+
 /// The model of an expression ("12", "12L", "HAPPY") from the scans of a workspace. A one-sided AU is taken from the
 /// subject's one-sided scan if there is one, else from that side of the two-sided scan (thesis 6, asymmetric AUs).
 /// Subjects who must not be shown (unallowed_subjects.txt) are never a source, nor part of a mean.

@@ -477,6 +477,14 @@ bool Workspace::hidden(const std::string& subject) const {
     return std::find(hidden_subjects_.begin(), hidden_subjects_.end(), subject) != hidden_subjects_.end();
 }
 
+void Workspace::refuse_hidden(const std::string& subject) const {
+    if (hidden(subject))
+        throw InputError(
+            fmt::format("subject '{}' stands in unallowed_subjects.txt and must not be shown; choose "
+                        "another",
+                        subject));
+}
+
 bool Workspace::has(const ScanId& id) const { return std::binary_search(scans_.begin(), scans_.end(), id); }
 
 ScanId Workspace::neutral(const std::string& subject) const {
@@ -492,6 +500,8 @@ std::optional<ScanId> Workspace::expression(const std::string& subject, const st
     return std::nullopt;
 }
 
-Face Workspace::face(const ScanId& id) const { return read_face(face_stem(root_, id)); }
+Face Workspace::face(const ScanId& id) const { return read_face(stem(id)); }
+
+fs::path Workspace::stem(const ScanId& id) const { return face_stem(root_, id); }
 
 }  // namespace mimik::preprocessing

@@ -67,12 +67,16 @@ public:
     [[nodiscard]] const std::vector<database::ScanId>& scans() const { return scans_; }
     [[nodiscard]] std::vector<std::string> subjects() const;
     [[nodiscard]] bool hidden(const std::string& subject) const;
+    /// @throws InputError if the subject must not be shown.
+    void refuse_hidden(const std::string& subject) const;
     [[nodiscard]] bool has(const database::ScanId& id) const;
     /// First neutral of a subject. @throws InputError naming the subjects there are.
     [[nodiscard]] database::ScanId neutral(const std::string& subject) const;
     /// First scan of an AU (or emotion) of a subject: code without regard to case; empty if there is none.
     [[nodiscard]] std::optional<database::ScanId> expression(const std::string& subject, const std::string& code) const;
     [[nodiscard]] Face face(const database::ScanId& id) const;  ///< read from disk
+    /// Path of a face's files without .ply, .json, .done.
+    [[nodiscard]] std::filesystem::path stem(const database::ScanId& id) const;
 
 private:
     std::filesystem::path root_, database_root_;

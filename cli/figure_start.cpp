@@ -1,0 +1,92 @@
+#include "cli/figure_start.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "geometry/errors.h"
+
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX has it in no header
+
+namespace mimik::cli {
+namespace {
+
+constexpr const char* program_name = "mimik-figure";
+
+/// argv of a program; points into `words`.
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
+    for (auto& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+bool runs(const std::filesystem::path& file) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
+}
+
+/// What went wrong; empty: nothing.
+std::string run_and_wait(const std::filesystem::path& program, std::vector<std::string> words) {
+    auto arguments = pointers_to(words);
+    pid_t child = 0;
+    const int error = posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ);
+    if (error != 0)
+        return fmt::format("{} does not start: {}", program.string(), std::system_category().message(error));
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0)
+        if (errno != EINTR)
+            return fmt::format("{} was lost: {}", program.string(), std::system_category().message(errno));
+    if (WIFSIGNALED(status)) return fmt::format("{} was ended by signal {}", program_name, WTERMSIG(status));
+    if (WEXITSTATUS(status) != 0) return fmt::format("{} ended with {}", program_name, WEXITSTATUS(status));
+    return {};
+}
+
+}  // namespace
+
+std::filesystem::path find_figure_program() {
+    std::error_code ignored;
+    const auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / program_name;
+    if (runs(beside)) return beside;
+    const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
+    std::string_view folders = path ? path : "";
+    while (!folders.empty()) {
+        const auto end = folders.find(':');
+        const auto folder = folders.substr(0, end);
+        folders = end == std::string_view::npos ? std::string_view() : folders.substr(end + 1);
+        if (const auto file = std::filesystem::path(folder) / program_name; !folder.empty() && runs(file)) return file;
+    }
+    throw InputError(
+        fmt::format("{} is neither {} nor on the PATH; install it (it is built unless MIMIK_FIGURES is OFF)",
+                    program_name, beside.string()));
+}
+
+void become_figure_program(const std::vector<std::string>& arguments) {
+    const auto program = find_figure_program();
+    std::vector<std::string> words = {program_name};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    execv(program.c_str(), pointers_to(words).data());
+    throw InputError(fmt::format("{} does not start: {}", program.string(), std::system_category().message(errno)));
+}
+
+std::string draw_figure(const std::filesystem::path& description, const std::filesystem::path& picture) {
+    std::string fault;
+    try {
+        // Its errors go to our standard error; there is nothing else that it says when quiet.
+        fault = run_and_wait(find_figure_program(),
+                             {program_name, "--description", description.string(), "-o", picture.string(), "--quiet"});
+    } catch (const InputError& e) {
+        fault = e.what();
+    }
+    if (fault.empty()) return {};
+    return fmt::format("{}: not drawn: {}", picture.string(), fault);
+}
+
+}  // namespace mimik::cli

@@ -1,0 +1,163 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/figure_start.h"
+#include "cli/method_options.h"
+#include "evaluation/comparison_panels.h"
+#include "geometry/errors.h"
+
+namespace mimik::cli {
+namespace {
+
+using evaluation::ComparisonFigure;
+using evaluation::ComparisonRequest;
+
+struct Arguments {
+    Common common;
+    MethodArguments method;
+    std::string workspace, output;
+    ComparisonRequest request;
+    std::vector<std::string> action_units;
+    std::vector<double> series;
+    bool keep_bridged = false, dry_run = false;
+};
+
+struct Planned {
+    ComparisonRequest request;
+    std::string name;  ///< of the picture and of the folder with its files
+};
+
+/// A picture per AU; a series is one picture of all AUs.
+std::vector<Planned> plan(const Arguments& arguments, const preprocessing::Workspace& workspace,
+                          const modeling::FacsCatalogue& catalogue, std::vector<std::string>& codes) {
+    std::vector<Planned> planned;
+    for (const auto& text : arguments.action_units) {
+        const auto selection = modeling::parse_selection(text);
+        if (!arguments.series.empty() && selection.magnitude != 1.0)
+            throw InputError(
+                fmt::format("--au {}: the magnitudes of a series stand in --series; give the AU alone", text));
+        auto request = arguments.request;
+        request.expression = selection.code;
+        request.method = {arguments.method.name, evaluation::RowKind::one_source, arguments.method.model_options(),
+                          arguments.method.animation_options(), selection.magnitude};
+        (void)evaluation::compared_scans(workspace, catalogue, request);  // found out before any work
+        codes.push_back(selection.code);
+        planned.push_back({request, evaluation::comparison_name(catalogue, request)});
+    }
+    if (arguments.series.empty()) return planned;
+    return {{planned.front().request, evaluation::series_name(catalogue, planned.front().request, codes)}};
+}
+
+nlohmann::json to_json(const Planned& planned, const std::vector<std::string>& codes,
+                       const std::filesystem::path& picture, const ComparisonFigure& figure) {
+    auto people = nlohmann::json::array();
+    for (const auto& person : figure.people)
+        people.push_back({{"subject", person.subject},
+                          {"zone_mm", person.distances.zone_mm},
+                          {"zone_nothing_mm", person.distances.zone_nothing_mm},
+                          {"explained", person.explained()},
+                          {"face_mm", person.distances.whole_mm},
+                          {"face_nothing_mm", person.distances.whole_nothing_mm}});
+    return {{"picture", picture.string()},
+            {"description", figure.description.string()},
+            {"panels", figure.panels},
+            {"expressions", codes},
+            {"source", planned.request.source},
+            {"target", planned.request.target},
+            {"method", planned.request.method.name},
+            {"distances", people},
+            {"colour_scale_mm", figure.scale_mm},
+            {"remarks", figure.remarks}};
+}
+
+int run(Arguments& arguments) {
+    const preprocessing::Workspace workspace(arguments.workspace);
+    const auto catalogue = arguments.method.catalogue();
+    if (arguments.keep_bridged) arguments.request.bridged = geometry::BridgedVertices::keep;
+    std::vector<std::string> codes;
+    const auto planned = plan(arguments, workspace, catalogue, codes);
+    const std::filesystem::path folder = arguments.output;
+
+    auto figures = nlohmann::json::array();
+    std::vector<std::string> failures;
+    Progress progress(arguments.common, "panels", planned.size());
+    for (const auto& one : planned) {
+        auto picture = folder / one.name;
+        picture += ".png";
+        if (arguments.dry_run) {
+            figures.push_back({{"picture", picture.string()}});
+            if (!arguments.common.json) std::cout << picture.string() << '\n';
+            continue;
+        }
+        const auto figure =
+            arguments.series.empty()
+                ? write_comparison_panels(workspace, catalogue, one.request, folder / one.name)
+                : write_magnitude_series(workspace, catalogue, one.request, codes, arguments.series, folder / one.name);
+        if (const auto fault = draw_figure(figure.description, picture); !fault.empty())
+            failures.push_back(
+                fmt::format("{}; its faces are in {}: draw them with 'mimik figure --description {} -o "
+                            "FILE.png'",
+                            fault, (folder / one.name).string(), figure.description.string()));
+        progress.advance(one.name);
+        figures.push_back(
+            to_json(one, arguments.series.empty() ? std::vector{one.request.expression} : codes, picture, figure));
+        if (arguments.common.json) continue;
+        if (!arguments.common.quiet)
+            for (const auto& remark : figure.remarks) std::cerr << "note: " << remark << '\n';
+        std::cout << fmt::format("{}: {} panels", picture.string(), figure.panels);
+        for (const auto& person : figure.people)
+            std::cout << fmt::format("; {} {:.2f} mm from the real scan, doing nothing {:.2f} mm", person.subject,
+                                     person.distances.zone_mm, person.distances.zone_nothing_mm);
+        std::cout << '\n';
+    }
+    if (arguments.common.json)
+        std::cout << nlohmann::json{{"schema", 1},
+                                    {"dry_run", arguments.dry_run},
+                                    {"figures", figures},
+                                    {"failures", failures}}
+                         .dump(1)
+                  << '\n';
+    for (const auto& failure : failures) std::cerr << failure << '\n';
+    return failures.empty() ? exit_done : exit_done_with_failures;
+}
+
+}  // namespace
+
+void add_panels_command(CLI::App& app, int& exit_code) {
+    auto* command = app.add_subcommand(
+        "panels", "Figures of an expression: neutral, animated and real faces, and their distance in colour");
+    auto arguments = std::make_shared<Arguments>();
+    auto& request = arguments->request;
+    command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
+    command
+        ->add_option("--source", request.source, "Subject whose expression is taken, or mean (of all but the target)")
+        ->capture_default_str();
+    command->add_option("--target", request.target, "Subject whose first neutral face is animated")->required();
+    command
+        ->add_option("--au", arguments->action_units,
+                     "AU or emotion, side and magnitude: 12, 12:0.5, 4L, HAPPY; a picture for each, repeat or 4,12")
+        ->delimiter(',')
+        ->required();
+    command
+        ->add_option("--series", arguments->series,
+                     "Magnitudes, such as 0,0.25,0.5,0.75,1: one picture, a row for each AU")
+        ->delimiter(',');
+    command->add_option("--view", request.view, "Where the camera stands")
+        ->check(CLI::IsMember({"front", "left", "right", "three-quarter-left", "three-quarter-right"}))
+        ->capture_default_str();
+    command->add_flag("--keep-bridged", arguments->keep_bridged, "Keep surface over holes");
+    command->add_option("-o,--output", arguments->output, "Folder for the pictures and the files they are drawn from")
+        ->required();
+    command->add_flag("--dry-run", arguments->dry_run, "List the pictures, make nothing");
+    arguments->method.add_to(*command);
+    add_common_options(*command, arguments->common);
+    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace mimik::cli
