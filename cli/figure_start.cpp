@@ -53,7 +53,7 @@ std::string run_and_wait(const std::filesystem::path& program, std::vector<std::
 
 std::filesystem::path find_figure_program() {
     std::error_code ignored;
-    const auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / program_name;
+    auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / program_name;
     if (runs(beside)) return beside;
     const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
     std::string_view folders = path ? path : "";
@@ -61,7 +61,7 @@ std::filesystem::path find_figure_program() {
         const auto end = folders.find(':');
         const auto folder = folders.substr(0, end);
         folders = end == std::string_view::npos ? std::string_view() : folders.substr(end + 1);
-        if (const auto file = std::filesystem::path(folder) / program_name; !folder.empty() && runs(file)) return file;
+        if (auto file = std::filesystem::path(folder) / program_name; !folder.empty() && runs(file)) return file;
     }
     throw InputError(
         fmt::format("{} is neither {} nor on the PATH; install it (it is built unless MIMIK_FIGURES is OFF)",

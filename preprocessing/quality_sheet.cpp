@@ -49,7 +49,7 @@ public:
     /// @return what went wrong; empty: nothing
     [[nodiscard]] std::string make(const DrawFigure& draw) const {
         remove();  // a sheet that shows other faces than there are is worse than none
-        const auto fault = draw(write_parts(), file(".png"));
+        auto fault = draw(write_parts(), file(".png"));
         fs::remove_all(parts());
         if (fault.empty()) geometry::write_atomically(file(".done"), done_text());
         return fault;
@@ -124,7 +124,7 @@ private:
             {"font_size_px", 15},
             {"scale_bar_mm", 50},
             {"panels", panels}};
-        const auto description = parts() / "figure.json";
+        auto description = parts() / "figure.json";
         geometry::write_atomically(description, document.dump(1) + "\n");
         return description;
     }

@@ -46,6 +46,52 @@ done
 grep -q '"units": "mm"' distance.json
 claim "faces are written in every format and can be measured"
 
+# What comes out of the drawing program needs a way to draw; what goes in does not.
+can_draw=yes
+"$mimik" figure -o probe.png neutral.ply --size 40x40 --quiet 2>/dev/null || can_draw=no
+mkdir alone
+cp "$mimik" alone/mimik
+"$mimik" panels work1 --source bs000 --target bs001 --au 4,12L -o panels --dry-run >planned.txt
+diff planned.txt - <<'END'
+panels/AU4_bs000_on_bs001_default.png
+panels/AU12_L_bs000_on_bs001_default.png
+END
+[ ! -e panels ]
+claim "panels can be listed before they are made"
+expect_code 1 "mimik-figure is neither" env PATH=nowhere alone/mimik panels work1 --source bs000 --target bs001 --au 12 -o panels
+for name in source_neutral source_animated source_real target_neutral target_animated target_real; do
+  [ -s "panels/AU12_bs000_on_bs001_default/$name.ply" ]
+done
+claim "without the drawing program the faces of the panels are there and 1 says that the picture is not"
+if [ "$can_draw" = yes ]; then
+  "$mimik" panels work1 --source mean --target bs001 --au 4 --method default -o panels --quiet
+  "$mimik" panels work1 --source bs000 --target bs001 --au 12 --method thesis -o panels --quiet
+  "$mimik" panels work1 --source bs000 --target bs001 --au 4,12 --series 0,1 -o panels --quiet
+  for name in AU4_mean_on_bs001_default AU12_bs000_on_bs001_thesis AU4_AU12_series_bs000_on_bs001_default; do
+    [ "$(head -c 4 "panels/$name.png" | tail -c 3)" = PNG ]
+  done
+  claim "panels of one source, of a mean, of the thesis and of a series are drawn"
+fi
+expect_code 2 "stand in --series" "$mimik" panels work1 --target bs001 --au 12:0.5 --series 0,1 -o nothing
+expect_code 2 "bs000, bs001, bs002" "$mimik" panels work1 --target bs009 --au 12 -o nothing
+expect_code 2 "no scan of expression '17'" "$mimik" panels work1 --source bs000 --target bs001 --au 17 -o nothing
+[ ! -e nothing ]
+claim "panels that cannot be are refused by name"
+
+code=0
+PATH=nowhere alone/mimik preprocess db1 -o work2 --sheets --quiet >out.txt 2>err.txt || code=$?
+[ "$code" -eq 1 ] && [ "$(grep -c 'mimik-figure is neither' err.txt)" -eq 1 ] && [ ! -e work2/sheets ]
+"$mimik" evaluate work2 --expression 12 --dry-run --quiet >/dev/null
+claim "a missing drawing program is said once, with 1, and the workspace is whole"
+if [ "$can_draw" = yes ]; then
+  "$mimik" preprocess db1 -o work2 --sheets --json >sheets.json
+  grep -q '"drawn": 3' sheets.json
+  [ "$(head -c 4 work2/sheets/bs001.png | tail -c 3)" = PNG ]
+  "$mimik" preprocess db1 -o work2 --sheets --json >sheets.json
+  grep -q '"drawn": 0' sheets.json && grep -q '"failures": \[\]' sheets.json
+  claim "quality sheets are drawn once"
+fi
+
 "$mimik" scans db1 --json --no-catalogue >scans.json
 grep -q '"schema"' scans.json
 expect_code 2 "no scan of expression '99'" "$mimik" animate work1 --source bs000 --target bs001 --au 99 -o x.ply
@@ -67,5 +113,9 @@ code=0
 "$mimik" preprocess broken -o broken_work --quiet >/dev/null 2>&1 || code=$?
 [ "$code" -eq 1 ]
 expect_code 2 "bs001" "$mimik" animate broken_work --source mean --target bs001 --au 4 -o hidden.ply
-[ ! -e hidden.ply ]
+expect_code 2 "bs001" "$mimik" panels broken_work --target bs001 --au 4 -o hidden
+expect_code 2 "bs001" "$mimik" panels broken_work --source bs001 --target bs000 --au 4 -o hidden
+[ ! -e hidden.ply ] && [ ! -e hidden ]
+"$mimik" preprocess broken -o broken_work --sheets --quiet >/dev/null 2>&1 || [ $? -eq 1 ]
+[ ! -e broken_work/sheets/bs001.png ] && { [ "$can_draw" = no ] || [ -e broken_work/sheets/bs000.png ]; }
 claim "a subject who must not be shown is not"

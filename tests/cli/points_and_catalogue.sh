@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# points_and_catalogue.sh MIMIK FOLDER: warp, distance and catalogue as a shell meets them, on files small enough to know the
+# answers by heart; the first claim that fails ends it.
+set -euo pipefail
+mimik=$1
+folder=$2
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+
+claim() { echo "checked: $1"; }
+fail() { echo "failed: $1"; exit 1; }
+expect_code() {  # code, words that the message must have (one per line), command...
+  local wanted=$1 words=$2 code=0
+  shift 2
+  "$@" >out.txt 2>err.txt || code=$?
+  [ "$code" -eq "$wanted" ] || { cat out.txt err.txt; fail "exit code $code, not $wanted: $*"; }
+  while read -r word; do
+    cat out.txt err.txt | grep -qF -- "$word" || { cat out.txt err.txt; fail "no word of '$word': $*"; }
+  done <<<"$words"
+}
+# A row of a points CSV is what it must be, within 1e-9: coordinates below 100 round at 1e-14, the solve adds a few digits.
+expect_row() {  # file, name, x y z
+  awk -F, -v name="$2" -v x="$3" -v y="$4" -v z="$5" '
+    function off(a, b) { return a - b > 1e-9 || b - a > 1e-9 }
+    $1 == name { found = 1; if (off($2, x) || off($3, y) || off($4, z)) { print; wrong = 1 } }
+    END { exit wrong || !found }' "$1" || { cat "$1"; fail "$1: $2 is not at $3 $4 $5"; }
+}
+expect_json() {  # file, object, key, value (within 1e-9)
+  awk -v object="\"$2\"" -v key="\"$3\":" -v value="$4" '
+    index($0, object) { inside = 1 }
+    inside && index($0, key) { sub(/.*: */, ""); sub(/,.*/, ""); found = 1; d = $0 - value; wrong = d > 1e-9 || d < -1e-9; exit }
+    END { exit wrong || !found }' "$1" || { cat "$1"; fail "$1: $2 $3 is not $4"; }
+}
+
+cat >box.csv <<'END'
+name,x,y,z
+a,0,0,0
+b,40,0,0
+c,0,40,0
+d,0,0,40
+e,40,40,40
+END
+awk -F, -v OFS=, 'NR > 1 { $2 += 5; $3 -= 2; $4 += 0.5 } { print }' box.csv >moved.csv
+printf 'name,x,y,z\nlast,1,2,3\nfirst,10,-20,30\nlast,70,7,7\n' >points.csv
+
+for kernel in r r2logr; do
+  for smoothing in 0 10; do
+    "$mimik" warp --from box.csv --to box.csv --kernel $kernel --smoothing $smoothing points.csv -o same.csv --quiet
+    expect_row same.csv first 10 -20 30
+    "$mimik" warp --from box.csv --to moved.csv --kernel $kernel --smoothing $smoothing points.csv -o shifted.csv --quiet
+    expect_row shifted.csv first 15 -22 30.5
+  done
+done
+claim "landmarks that stay move nothing, and landmarks that all move alike move every point alike, for any kernel and smoothing"
+[ "$(cut -d, -f1 shifted.csv | tr '\n' ' ')" = "name last first last " ] || fail "names and order"
+claim "names and order of a CSV are kept"
+
+# Two squares of 40 mm, 3 mm apart.
+square() {  # z
+  printf 'v 0 0 %s\nv 40 0 %s\nv 40 40 %s\nv 0 40 %s\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n' "$1" "$1" "$1" "$1"
+}
+square 0 >low.obj
+square 3 >high.obj
+"$mimik" warp --from box.csv --to moved.csv low.obj -o low_moved.obj --json >warp.json
+grep -q '"landmarks": 5' warp.json && grep -q '"points": 4' warp.json || fail "report of warp"
+grep -q '^f 1/1 2/2 3/3 4/4' low_moved.obj && [ "$(grep -c '^vt ' low_moved.obj)" -eq 4 ] || fail "faces or texture of the mesh"
+awk '$1 == "v" { d = $2 - 45; n += (d < 1e-9 && d > -1e-9) } END { exit n != 2 }' low_moved.obj || fail "corners of the moved square"
+claim "a warped mesh keeps its faces and texture coordinates"
+
+"$mimik" distance low.obj high.obj --json >planes.json
+for side in test_to_reference reference_to_test; do
+  expect_json planes.json $side n 4
+  for key in mean rms median p95 max; do expect_json planes.json $side $key 3; done
+done
+grep -q '"units": "mm"' planes.json || fail "units"
+claim "parallel squares are as far apart as they are, in every figure and both ways"
+printf 'name,x,y,z\nabove,20,20,4\nbeside,44,20,6\n' >cloud.csv
+"$mimik" distance cloud.csv high.obj --json >cloud.json
+expect_json cloud.json test_to_reference n 2
+expect_json cloud.json test_to_reference mean 3  # 1 above, and 3-4-5 beside the edge
+expect_json cloud.json test_to_reference median 3
+expect_json cloud.json test_to_reference p95 4.8  # 1 + 0.95 (5 - 1)
+expect_json cloud.json test_to_reference max 5
+grep -q '"reference_to_test": null' cloud.json || fail "a cloud has no surface to measure to"
+claim "points are measured to the nearest point of the surface, edges included"
+"$mimik" distance low.obj high.obj -o low.vtp --quiet >/dev/null
+grep -q 'Name="distance_mm"' low.vtp || fail "values per vertex"
+claim "distances per vertex are written"
+
+grep -v '^b,' box.csv >fewer.csv
+printf 'f,1,1,1\ng,2,2,2\n' >>fewer.csv
+expect_code 2 $'b\nf\ng' "$mimik" warp --from box.csv --to fewer.csv points.csv -o nothing.csv
+for name in b f g; do grep -qwF "$name" err.txt || fail "$name is not named"; done
+expect_code 2 "points.csv" "$mimik" distance low.obj points.csv
+expect_code 2 "missing.ply" "$mimik" distance missing.ply high.obj
+printf 'name,x,y,z\na,0,0,0\nb,1,0,0\nc,2,1,0\nd,0,1,0\n' >flat.csv
+expect_code 3 "plane" "$mimik" warp --from flat.csv --to flat.csv points.csv -o nothing.csv
+[ ! -e nothing.csv ] || fail "a file that should not be"
+claim "landmarks without a partner are all named, as are missing files, references without a surface, and flat landmarks (3)"
+
+"$mimik" catalogue --lint >lint.txt
+grep -q ': 0 errors' lint.txt || fail "the catalogue that is shipped has faults"
+"$mimik" catalogue --text >own.toml
+"$mimik" catalogue own.toml --json >own.json
+"$mimik" catalogue --json | diff <(grep -v '"catalogue"' own.json) <(grep -v '"catalogue"') || fail "its text is not what it is"
+claim "the catalogue that is shipped has no fault, and its text reads back the same"
+line=$(grep -n -m1 'mouth_corner = 1.0' own.toml | cut -d: -f1)
+sed "${line}s/mouth_corner = 1.0/mouth_korner = 1.0/" own.toml >wrong.toml
+expect_code 2 "wrong.toml:$line: error: "$'\nmouth_korner' "$mimik" catalogue wrong.toml --lint
+expect_code 2 "$line"$'\nmouth_korner' "$mimik" catalogue wrong.toml
+sed "${line}s/ = 1.0/ = = 1.0/" own.toml >broken.toml
+expect_code 2 "broken.toml:$line: error: " "$mimik" catalogue broken.toml --lint
+claim "a wrong name and broken TOML are said with file and line"
