@@ -37,46 +37,18 @@ step 2 "Preprocess it: clean, resample to 150x150, average face, normalise"
 step 3 "Model AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 left on the average face"
 "$mimik" model "$out/workspace" --source mean --expression 1,2,4,12,14,15,17,20,12L
 
-step 4 "Animate neutral faces"
+step 4 "Animate neutral faces and compare them with the real scans: Figs 6-1 to 6-3, 6-6 and 5-12"
 source=bs000
 target=bs001
-# Figs 6-1 to 6-3 and 6-6: neutral, animated and real faces of a source (its own target) and of a target.
-panels() {  # AU code, scan code, figure name, words
-  local au=$1 scan=$2 name=$3 words=$4 method who
-  for who in "$source" "$target"; do
-    "$mimik" animate "$out/workspace" --source "$source" --target "$who" --au "$au:0" -o "$out/animated/${who}_neutral.ply" --quiet
-    for method in default thesis; do
-      "$mimik" animate "$out/workspace" --source "$source" --target "$who" --au "$au" --method "$method" --quiet \
-        -o "$out/animated/${who}_AU${au}_from_${source}_$method.ply"
-    done
-  done
-  "$mimik" figure -o "$out/figures/$name.png" --columns 4 --title "$words" --quiet \
-    "$out/animated/${source}_neutral.ply" "$out/animated/${source}_AU${au}_from_${source}_default.ply" \
-    "$out/animated/${source}_AU${au}_from_${source}_thesis.ply" "$out/database/$source/${source}_${scan}_0.bnt" \
-    "$out/animated/${target}_neutral.ply" "$out/animated/${target}_AU${au}_from_${source}_default.ply" \
-    "$out/animated/${target}_AU${au}_from_${source}_thesis.ply" "$out/database/$target/${target}_${scan}_0.bnt" \
-    --caption "(a) Neutral source" --caption "(b) Animated, default" --caption "(c) Animated, as the thesis prints it" \
-    --caption "(d) Real scan" --caption "(e) Neutral target" --caption "(f) Animated with the source's AU, default" \
-    --caption "(g) Animated, as the thesis prints it" --caption "(h) Real scan"
-}
-panels 4 UFAU_4 fig_6-1_AU4 "AU 4, brow lowerer"
-panels 12 LFAU_12 fig_6-2_AU12 "AU 12, lip corner puller"
-panels 15 LFAU_15 fig_6-3_AU15 "AU 15, lip corner depressor"
-panels 12L LFAU_12L fig_6-6_AU12L "AU 12, left side only"
-# Fig. 5-12: magnitudes.
-for au in 4 12; do
-  series=()
-  captions=()
-  for m in 0 0.25 0.5 0.75 1; do
-    file=$out/animated/${target}_AU${au}_m$m.ply
-    "$mimik" animate "$out/workspace" --source mean --target "$target" --au "$au:$m" -o "$file" --quiet
-    series+=("$file")
-    captions+=(--caption "m = $m")
-  done
-  "$mimik" figure -o "$out/figures/fig_5-12_AU$au.png" --columns 5 --title "AU $au, mean of the other subjects, by magnitude" \
-    --quiet "${series[@]}" "${captions[@]}"
-done
+"$mimik" panels "$out/workspace" --source "$source" --target "$target" --au 4,12,15,12L -o "$out/figures" --quiet
+"$mimik" panels "$out/workspace" --source "$source" --target "$target" --au 4,12,15,12L --method thesis -o "$out/figures" --quiet
+"$mimik" panels "$out/workspace" --source mean --target "$target" --au 4,12,15,12L -o "$out/figures" --quiet
+"$mimik" panels "$out/workspace" --source mean --target "$target" --au 4,12 --series 0,0.25,0.5,0.75,1 -o "$out/figures" --quiet
 "$mimik" animate "$out/workspace" --source mean --target "$target" --au 12L --au 12R --au 1 -o "$out/animated/$target.glb" --quiet
+for method in default thesis; do
+  "$mimik" animate "$out/workspace" --source "$source" --target "$target" --au 12 --method "$method" --quiet \
+    -o "$out/animated/${target}_AU12_from_${source}_$method.ply"
+done
 neutrals=()
 captions=()
 for folder in "$out"/database/bs*; do
