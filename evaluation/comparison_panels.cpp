@@ -231,6 +231,11 @@ void compare(Person& person, const Workspace& workspace, const ActiveZone& zone)
     const auto& grid = person.neutral.grid;
     person.scored = scored_target(grid, person.real->grid, person.real->neutral_from_scan,
                                   carry_zone(zone, workspace.average(), person.neutral));
+    if (person.scored->vertices.empty())
+        throw InputError(
+            fmt::format("{} does not lie on {}: nothing of the neutral face sees it; 'mimik preprocess "
+                        "--sheets' shows how it was aligned",
+                        person.real->id.name(), person.neutral.id.name()));
     person.compared = {person.neutral.id.subject, judge_case(*person.scored, person.animated.grid.vertices_mm,
                                                              person.animated.displacement_mm, grid, true)};
 }

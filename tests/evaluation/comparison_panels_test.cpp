@@ -251,6 +251,19 @@ TEST_F(ComparisonPanels, what_cannot_be_shown_is_refused_by_name_before_any_file
                 HasSubstr("0 expressions at 0 magnitudes"));
 }
 
+TEST_F(ComparisonPanels, a_scan_that_was_aligned_beside_its_neutral_is_named) {
+    const database::TemporaryFolder folder;
+    const auto workspace = test::analytic_workspace(folder.path());
+    auto smiling = workspace.face(*workspace.expression("bs001", "12"));
+    smiling.neutral_from_scan.pretranslate(Point(1000, 0, 0));
+    preprocessing::write_face(workspace.stem(smiling.id), smiling);
+    EXPECT_THAT(message_of<InputError>([&] {
+                    (void)write_comparison_panels(workspace, catalogue(), smile("bs000", "bs001"),
+                                                  folder.path() / "out");
+                }),
+                HasSubstr("bs001_LFAU_12_0 does not lie on bs001_N_N_0"));
+}
+
 TEST_F(ComparisonPanels, subjects_who_must_not_be_shown_are_refused_and_stand_in_no_file) {
     const database::TemporaryFolder folder;
     geometry::write_atomically(folder.path() / "db" / "unallowed_subjects.txt", "bs000\n");
