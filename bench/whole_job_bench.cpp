@@ -89,8 +89,7 @@ Face neutral_face(const database::ScanEntry& entry) {
 }
 
 void tie(Face& face, const Face& neutral) {
-    const auto stable = modeling::stable_vertices(modeling::builtin_catalogue(), face.id.code, neutral.grid,
-                                                  neutral.landmarks, neutral.average_from_scan);
+    const auto stable = modeling::stable_vertices(modeling::builtin_catalogue(), face.id.code, neutral);
     preprocessing::align_to_neutral(face, neutral, stable);
     face.average_from_scan = neutral.average_from_scan * face.neutral_from_scan;
     face.average_from_scan_affine = preprocessing::affine_normalisation(face.snapped_landmarks, average().landmarks);

@@ -69,8 +69,7 @@ int run(Arguments& arguments) {
     const auto stable_region = [](const database::ScanId& scan, const preprocessing::Face& neutral) {
         if (scan.neutral()) return preprocessing::stable_on_every_face(neutral);
         try {
-            return modeling::stable_vertices(modeling::builtin_catalogue(), scan.code, neutral.grid, neutral.landmarks,
-                                             neutral.average_from_scan);
+            return modeling::stable_vertices(modeling::builtin_catalogue(), scan.code, neutral);
         } catch (const InputError&) {
             return preprocessing::stable_on_every_face(neutral);
         }

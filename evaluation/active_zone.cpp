@@ -32,37 +32,44 @@ std::vector<Point> average_vertices_on(const AverageFace& average, const Face& f
     return vertices;
 }
 
-ActiveZone active_zone_from_truth(const std::string& expression, const AverageFace& average,
-                                  std::span<const TrueSubject> subjects, double share) {
-    if (subjects.empty()) throw InputError(fmt::format("{}: no subject with a truth shows it", expression));
-    std::vector<Vector> sum(average.grid.size(), Vector::Zero());
-    for (const auto& subject : subjects) {
-        const auto& neutral = *subject.true_neutral;
-        const geometry::SurfaceIndex surface(neutral.vertices_mm, geometry::triangulate(neutral.faces));
-        const auto triangles = surface.triangles();
-        const auto on_face = average_vertices_on(average, *subject.neutral);
-        const auto hits = surface.closest(on_face);
-        const Eigen::Matrix3d average_from_head =
-            subject.neutral->average_from_scan.linear() * neutral.scanner_from_head.linear();
-        for (std::size_t v = 0; v < sum.size(); ++v) {
-            if (!average.grid.inside(v)) continue;
-            const auto& t = triangles[hits[v].triangle];
-            Vector displacement = Vector::Zero();
-            for (std::size_t k = 0; k < 3; ++k)
-                displacement +=
-                    hits[v].barycentric[static_cast<Eigen::Index>(k)] * subject.true_expression->displacement_mm[t[k]];
-            sum[v] += average_from_head * displacement;
-        }
+std::vector<Vector> true_motion_on_average(const AverageFace& average, const Face& neutral,
+                                           const synthesis::TrueScan& true_neutral,
+                                           std::span<const Vector> true_field_mm) {
+    const geometry::SurfaceIndex surface(true_neutral.vertices_mm, geometry::triangulate(true_neutral.faces));
+    const auto triangles = surface.triangles();
+    const auto hits = surface.closest(average_vertices_on(average, neutral));
+    const Eigen::Matrix3d average_from_head =
+        neutral.average_from_scan.linear() * true_neutral.scanner_from_head.linear();
+    std::vector<Vector> motion(average.grid.size(), Vector::Zero());
+    for (std::size_t v = 0; v < motion.size(); ++v) {
+        if (!average.grid.inside(v)) continue;
+        const auto& t = triangles[hits[v].triangle];
+        Vector displacement = Vector::Zero();
+        for (std::size_t k = 0; k < 3; ++k)
+            displacement += hits[v].barycentric[static_cast<Eigen::Index>(k)] * true_field_mm[t[k]];
+        motion[v] = average_from_head * displacement;
     }
+    return motion;
+}
+
+TrueZone::TrueZone(const AverageFace& average) : average_(average), sum_(average.grid.size(), Vector::Zero()) {}
+
+void TrueZone::add(std::span<const Vector> motion_mm) {
+    for (std::size_t v = 0; v < sum_.size(); ++v) sum_[v] += motion_mm[v];
+    ++subjects_;
+}
+
+ActiveZone TrueZone::zone(const std::string& expression, double share) const {
+    if (subjects_ == 0) throw InputError(fmt::format("{}: no subject with a truth shows it", expression));
     ActiveZone zone;
     zone.expression = expression;
     double largest = 0;
-    for (const auto& total : sum) {
-        zone.displacement_mm.push_back(total.norm() / static_cast<double>(subjects.size()));
+    for (const auto& total : sum_) {
+        zone.displacement_mm.push_back(total.norm() / static_cast<double>(subjects_));
         largest = std::max(largest, zone.displacement_mm.back());
     }
-    for (std::size_t v = 0; v < sum.size(); ++v)
-        zone.active.push_back(average.grid.inside(v) && zone.displacement_mm[v] > share * largest);
+    for (std::size_t v = 0; v < sum_.size(); ++v)
+        zone.active.push_back(average_.grid.inside(v) && zone.displacement_mm[v] > share * largest);
     return zone;
 }
 

@@ -19,18 +19,28 @@ struct ActiveZone {
     std::vector<double> displacement_mm;  ///< mean over subjects, where it is known from a truth; else empty
 };
 
-/// One subject of a synthetic database: its preprocessed neutral and the truth of neutral and expression.
-struct TrueSubject {
-    const preprocessing::Face* neutral = nullptr;
-    const synthesis::TrueScan* true_neutral = nullptr;
-    const synthesis::TrueScan* true_expression = nullptr;  ///< displacement_mm from the neutral scan
-};
+/// Where an expression really moved one subject's skin: one vector per vertex of the average face's grid, its frame.
+/// @param true_field_mm  of the true surface's vertices, head frame, from the neutral scan.
+[[nodiscard]] std::vector<geometry::Vector> true_motion_on_average(const preprocessing::AverageFace& average,
+                                                                   const preprocessing::Face& neutral,
+                                                                   const synthesis::TrueScan& true_neutral,
+                                                                   std::span<const geometry::Vector> true_field_mm);
 
-/// Active where the length of the mean true displacement over subjects exceeds `share` of its maximum on the average
-/// face.
-[[nodiscard]] ActiveZone active_zone_from_truth(const std::string& expression,
-                                                const preprocessing::AverageFace& average,
-                                                std::span<const TrueSubject> subjects, double share = 0.2);
+/// The zone from a truth, subject after subject: active where the length of their mean true motion exceeds a share of
+/// its maximum on the average face. Holds the sum alone.
+class TrueZone {
+public:
+    /// Keeps a reference.
+    explicit TrueZone(const preprocessing::AverageFace& average);
+    void add(std::span<const geometry::Vector> motion_mm);  ///< of true_motion_on_average()
+    /// @throws InputError if no subject was added.
+    [[nodiscard]] ActiveZone zone(const std::string& expression, double share = 0.2) const;
+
+private:
+    const preprocessing::AverageFace& average_;
+    std::vector<geometry::Vector> sum_;
+    std::size_t subjects_ = 0;
+};
 
 /// The same region as the catalogue draws it, for databases without a truth.
 [[nodiscard]] ActiveZone active_zone_from_catalogue(const std::string& expression,

@@ -7,17 +7,6 @@ namespace mimik::evaluation {
 using geometry::Point;
 using geometry::Vector;
 
-namespace {
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-}  // namespace
-
 ScoredTarget scored_target(const geometry::QuadGrid& neutral, const geometry::QuadGrid& expressive,
                            const geometry::Transform& neutral_from_expressive, const std::vector<char>& zone) {
     ScoredTarget target;
@@ -46,7 +35,6 @@ ScoredTarget scored_target(const geometry::QuadGrid& neutral, const geometry::Qu
 CaseResult judge_case(const ScoredTarget& target, const std::vector<Point>& animated_mm,
                       const std::vector<Vector>& displacement_mm, const geometry::QuadGrid& grid, bool whole_face) {
     CaseResult result;
-    result.done = true;
     // A vertex that stays where it was, or was left out, has the distance of doing nothing: only the others are asked.
     std::vector<Point> queries;
     std::vector<std::size_t> asked, moved;
@@ -98,39 +86,36 @@ CaseResult judge_case(const ScoredTarget& target, const std::vector<Point>& anim
     return result;
 }
 
-Score summarise_cases(const std::vector<CaseResult>& cases) {
-    Score score;
-    double method = 0, nothing = 0, whole = 0, whole_nothing = 0, truth = 0, truth_nothing = 0;
-    std::size_t with_truth = 0;
-    std::vector<double> explained;
-    for (const auto& result : cases) {
-        if (!result.done) continue;
-        ++score.cases;
-        method += result.zone_mm;
-        nothing += result.zone_nothing_mm;
-        whole += result.whole_mm;
-        whole_nothing += result.whole_nothing_mm;
-        score.largest_step_mm += result.step_mm;
-        score.left_out_vertices += result.left_out;
-        if (result.true_mm >= 0) {
-            truth += result.true_mm;
-            truth_nothing += result.true_nothing_mm;
-            ++with_truth;
-        }
-        if (result.zone_nothing_mm > 0) explained.push_back(1 - result.zone_mm / result.zone_nothing_mm);
-        if (result.zone_mm > result.zone_nothing_mm) ++score.worse_than_nothing;
+void ScoreSum::add(const CaseResult& result) {
+    ++sums_.cases;
+    error_ += result.zone_mm;
+    nothing_ += result.zone_nothing_mm;
+    whole_ += result.whole_mm;
+    whole_nothing_ += result.whole_nothing_mm;
+    sums_.largest_step_mm += result.step_mm;
+    sums_.left_out_vertices += result.left_out;
+    if (result.true_mm >= 0) {
+        true_error_ += result.true_mm;
+        true_nothing_ += result.true_nothing_mm;
+        ++with_truth_;
     }
+    if (result.zone_nothing_mm > 0) explained_.add(1 - result.zone_mm / result.zone_nothing_mm);
+    if (result.zone_mm > result.zone_nothing_mm) ++sums_.worse_than_nothing;
+}
+
+Score ScoreSum::score() const {
+    Score score = sums_;
     if (score.cases == 0) return score;
     const auto n = static_cast<double>(score.cases);
-    score.explained = nothing > 0 ? 1 - method / nothing : 0;
-    score.explained_median = median(explained);
-    score.explained_whole = whole_nothing > 0 ? 1 - whole / whole_nothing : 0;
-    score.error_mm = method / n;
-    score.nothing_mm = nothing / n;
+    score.explained = nothing_ > 0 ? 1 - error_ / nothing_ : 0;
+    score.explained_median = explained_.median();
+    score.explained_whole = whole_nothing_ > 0 ? 1 - whole_ / whole_nothing_ : 0;
+    score.error_mm = error_ / n;
+    score.nothing_mm = nothing_ / n;
     score.largest_step_mm /= n;
-    if (with_truth > 0) {
-        score.true_error_mm = truth / static_cast<double>(with_truth);
-        score.nothing_true_mm = truth_nothing / static_cast<double>(with_truth);
+    if (with_truth_ > 0) {
+        score.true_error_mm = true_error_ / static_cast<double>(with_truth_);
+        score.nothing_true_mm = true_nothing_ / static_cast<double>(with_truth_);
     }
     return score;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "evaluation/bounded_median.h"
 #include "geometry/quad_grid.h"
 #include "geometry/surface_index.h"
 #include "geometry/types.h"
@@ -30,7 +31,6 @@ struct ScoredTarget {
 
 /// One method on one case; means over the scored vertices.
 struct CaseResult {
-    bool done = false;  ///< false: no such case
     double zone_mm = 0, zone_nothing_mm = 0, whole_mm = 0, whole_nothing_mm = 0;
     double true_mm = -1, true_nothing_mm = -1, step_mm = 0;
     std::size_t left_out = 0;
@@ -61,7 +61,17 @@ struct Score {
                                     const std::vector<geometry::Vector>& displacement_mm,
                                     const geometry::QuadGrid& grid, bool whole_face);
 
-/// Sums over the cases that are there.
-[[nodiscard]] Score summarise_cases(const std::vector<CaseResult>& cases);
+/// Sums the cases of one method on one expression, one after another; holds no case.
+class ScoreSum {
+public:
+    void add(const CaseResult& result);
+    [[nodiscard]] Score score() const;
+
+private:
+    Score sums_;  // its counts and the sum of the steps
+    double error_ = 0, nothing_ = 0, whole_ = 0, whole_nothing_ = 0, true_error_ = 0, true_nothing_ = 0;
+    std::size_t with_truth_ = 0;
+    BoundedMedian explained_;
+};
 
 }  // namespace mimik::evaluation

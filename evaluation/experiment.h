@@ -6,32 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "animation/animate.h"
 #include "evaluation/case_score.h"
-#include "modeling/expression_model.h"
+#include "evaluation/method.h"
 #include "modeling/facs_catalogue.h"
 #include "preprocessing/workspace.h"
 
 namespace mimik::evaluation {
-
-/// Three kinds of row, never mixed (what a method may know beside the target's neutral face).
-enum class RowKind {
-    one_source,  ///< one other subject's neutral and expression, nothing else
-    mean,        ///< every subject but the target
-};
-
-/// A method under test: how an expression is modelled and put on a face.
-struct Method {
-    std::string name;
-    RowKind kind = RowKind::one_source;
-    modeling::ModelOptions model;
-    animation::AnimationOptions animation;
-    double magnitude = 1.0;
-};
-
-/// "thesis" (as printed), "default" (one source), "mean" (of all other subjects on the average face). @throws
-/// InputError.
-[[nodiscard]] Method method_by_name(const std::string& name);
 
 struct ExperimentOptions {
     std::vector<std::string> expressions = {"1", "2", "4", "12", "14", "15", "17", "20", "12L"};  ///< the thesis's nine
@@ -65,8 +45,12 @@ struct ExperimentReport {
 
 /// Scores methods on every ordered pair source -> target of a workspace, as docs/algorithms/scoring.md defines it.
 /// Subjects that must not be shown take part in no case. A case whose method gives no answer counts as doing nothing; a
-/// face that cannot be read takes part in no case; both are listed. Memory: one face per subject, whatever the number
-/// of expressions. @throws InputError if fewer than 3 subjects show an expression.
+/// face that cannot be read takes part in no case; both are listed.
+///
+/// Memory: faces are read when they are needed, one subject's at a time per thread (about 30 MB), beside 128 MB of true
+/// fields and 40 MB for the medians at most, whatever the number of subjects and expressions. Only the models of one
+/// expression grow with the subjects, by some 30 kB each, and so do the cases of the targets under way, by 100 bytes
+/// per source and row. @throws InputError if fewer than 3 subjects show an expression.
 [[nodiscard]] ExperimentReport run_experiment(const preprocessing::Workspace& workspace,
                                               const modeling::FacsCatalogue& catalogue,
                                               const ExperimentOptions& options = {},

@@ -6,6 +6,7 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace mimik::geometry {
 namespace {
@@ -31,7 +32,9 @@ void parallel_for(std::size_t count, std::size_t grain, const std::function<void
     const std::size_t pieces = (count + grain - 1) / grain;
     const auto run = [&](std::size_t piece) { body(piece * grain, std::min(count, (piece + 1) * grain)); };
     if (pieces == 1) return run(0);
-    tbb::parallel_for(std::size_t{0}, pieces, run);
+    // Isolated: a thread that waits for the last piece must not start a piece of a loop around this one meanwhile, or
+    // it would hold the memory of two, three, ... of them.
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, pieces, run); });
 }
 
 }  // namespace mimik::geometry

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "geometry/errors.h"
+#include "preprocessing/workspace.h"
 
 namespace mimik::modeling {
 
@@ -138,30 +139,20 @@ PlacedControls place_controls(const FacsCatalogue& catalogue, const std::string&
 }
 
 std::vector<char> stable_vertices(const FacsCatalogue& catalogue, const std::string& expression,
-                                  const geometry::QuadGrid& grid, const Landmarks& landmarks,
-                                  const geometry::Transform& average_from_scan) {
-    const auto upright = geometry::transformed(landmarks, average_from_scan);
-    const ExpressionZone zone(catalogue, expression, upright);
+                                  const preprocessing::Face& neutral) {
+    const auto& grid = neutral.grid;
+    const ExpressionZone zone(catalogue, expression,
+                              geometry::transformed(neutral.landmarks, neutral.average_from_scan));
     const double margin = catalogue.sampling().anchor_margin;
     std::vector<char> stable(grid.size(), 0);
     std::size_t measured = 0, count = 0;
     for (std::size_t v = 0; v < grid.size(); ++v) {
         if (!grid.measured(v)) continue;
         ++measured;
-        stable[v] = zone.distance(average_from_scan * grid.vertices_mm[v]) > margin ? 1 : 0;
+        stable[v] = zone.distance(neutral.average_from_scan * grid.vertices_mm[v]) > margin ? 1 : 0;
         count += static_cast<std::size_t>(stable[v]);
     }
-    if (10 * count >= measured) return stable;
-    const double unit = eye_distance_mm(upright);
-    const Point eyes = 0.5 * (upright.position_mm("eye_outer_left") + upright.position_mm("eye_outer_right"));
-    for (std::size_t v = 0; v < grid.size(); ++v) {
-        if (!grid.measured(v)) continue;
-        const Point p = (average_from_scan * grid.vertices_mm[v] - eyes) / unit;
-        const bool nose_bridge = std::abs(p.x()) < 0.22 && p.y() > -0.30 && p.y() < 0.10;
-        const bool temple = std::abs(p.x()) > 0.50 && std::abs(p.x()) < 0.75 && p.y() > -0.15 && p.y() < 0.40;
-        stable[v] = nose_bridge || temple ? 1 : 0;
-    }
-    return stable;
+    return 10 * count >= measured ? stable : preprocessing::stable_on_every_face(neutral);
 }
 
 }  // namespace mimik::modeling

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "geometry/landmarks.h"
-#include "geometry/quad_grid.h"
 #include "geometry/surface_index.h"
 #include "modeling/facs_catalogue.h"
+#include "preprocessing/face.h"
 
 namespace mimik::modeling {
 
@@ -50,11 +50,9 @@ private:
 [[nodiscard]] geometry::Point place(const Placement& placement, const geometry::Landmarks& landmarks,
                                     database::Side side);
 
-/// Vertices (1) that the expression leaves alone: measured, and outside its zones by the anchor margin. If fewer than a
-/// tenth are, the nose bridge, inner eye corners and temples.
-/// @param average_from_scan  brings grid and landmarks upright.
+/// Vertices (1) of a neutral face that the expression leaves alone: measured, and outside its zones by the anchor
+/// margin, upright by `neutral.average_from_scan`. If fewer than a tenth are, preprocessing::stable_on_every_face().
 [[nodiscard]] std::vector<char> stable_vertices(const FacsCatalogue& catalogue, const std::string& expression,
-                                                const geometry::QuadGrid& grid, const geometry::Landmarks& landmarks,
-                                                const geometry::Transform& average_from_scan);
+                                                const preprocessing::Face& neutral);
 
 }  // namespace mimik::modeling

@@ -60,19 +60,23 @@ public:
             vertices_.push_back(grid.inside(v) ? Point(average_from_scan * grid.vertices_mm[v]) : Point(Point::Zero()));
             if (grid.inside(v)) inside_.push_back(vertices_.back());
         }
-        surface_.emplace(vertices_, geometry::triangles(grid, bridged));
+        triangles_ = geometry::triangles(grid, bridged);
     }
-    [[nodiscard]] Point nearest(const Point& query, bool vertex) const {
-        if (!vertex) return surface_->closest(query).position_mm;
+    [[nodiscard]] Point nearest(const Point& query, bool vertex) {
+        if (!vertex) return surface().closest(query).position_mm;
         if (!index_) index_.emplace(inside_);
         return inside_[index_->nearest(query).index];
     }
-    [[nodiscard]] const geometry::SurfaceIndex& surface() const { return *surface_; }
+    [[nodiscard]] const geometry::SurfaceIndex& surface() {
+        if (!surface_) surface_.emplace(vertices_, triangles_);
+        return *surface_;
+    }
 
 private:
     std::vector<Point> vertices_, inside_;
-    std::optional<geometry::SurfaceIndex> surface_;
-    mutable std::optional<geometry::PointIndex> index_;
+    std::vector<geometry::Triangle> triangles_;
+    std::optional<geometry::SurfaceIndex> surface_;  // the one that is asked for is made: each costs milliseconds
+    std::optional<geometry::PointIndex> index_;
 };
 
 double mouth_width(const Landmarks& landmarks) {
@@ -87,17 +91,25 @@ bool wanted(ControlKind kind, const ModelOptions& options) {
 
 }  // namespace
 
-ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::string& expression,
-                                   const AverageFace& average, const Face& neutral, const Face& expressive,
-                                   const ModelOptions& options, std::vector<FollowedPoint>* followed) {
-    options.check();
+ExpressionGauge::ExpressionGauge(const FacsCatalogue& catalogue, const std::string& expression,
+                                 const AverageFace& average, const ModelOptions& options)
+    : catalogue_(catalogue), average_(average), expression_(expression), options_(options) {
+    options_.check();
     const auto units = catalogue.resolve(expression);
+    begun_.expression = expression_name(catalogue, expression);
+    begun_.moves_upper_face = begun_.moves_lower_face = false;
+    for (const auto& sided : units) (sided.unit->lower_face ? begun_.moves_lower_face : begun_.moves_upper_face) = true;
+    begun_.frame = options_.frame;
+    if (!options_.place_on_average) return;
+    const geometry::SurfaceIndex surface(average.grid.vertices_mm, geometry::triangles(average.grid));
+    on_average_ = place_controls(catalogue, expression, average.landmarks, surface);
+}
+
+ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expressive,
+                                         std::vector<FollowedPoint>* followed) const {
+    const auto& options = options_;
     const geometry::ThinPlateSplineOptions spline{.kernel = options.kernel, .smoothing = options.smoothing};
-    ExpressionModel model;
-    model.expression = expression_name(catalogue, expression);
-    model.moves_upper_face = model.moves_lower_face = false;
-    for (const auto& sided : units) (sided.unit->lower_face ? model.moves_lower_face : model.moves_upper_face) = true;
-    model.frame = options.frame;
+    ExpressionModel model = begun_;
     model.sources = {neutral.id.name(), expressive.id.name()};
 
     const auto& to_average = average_from_scan(neutral, options.frame);
@@ -106,17 +118,16 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
         geometry::transformed(options.snap_to_vertices ? neutral.snapped_landmarks : neutral.landmarks, to_average);
     const auto expressive_marks = geometry::transformed(
         options.snap_to_vertices ? expressive.snapped_landmarks : expressive.landmarks, to_average_too);
-    const NormalisedSurface neutral_surface(neutral.grid, to_average, geometry::BridgedVertices::keep);
-    const NormalisedSurface expressive_surface(expressive.grid, to_average_too, geometry::BridgedVertices::keep);
+    NormalisedSurface neutral_surface(neutral.grid, to_average, geometry::BridgedVertices::keep);
+    NormalisedSurface expressive_surface(expressive.grid, to_average_too, geometry::BridgedVertices::keep);
 
     // Where the points stand on the model's own face, and where on this source's neutral face.
     PlacedControls placed;
     std::vector<Point> controls_on_source, anchors_on_source;
     if (options.place_on_average) {
-        const geometry::SurfaceIndex average_surface(average.grid.vertices_mm, geometry::triangles(average.grid));
-        placed = place_controls(catalogue, expression, average.landmarks, average_surface);
-        model.landmarks = average.landmarks;
-        const auto source_from_average = preprocessing::landmark_spline(average.landmarks, neutral_marks, spline);
+        placed = on_average_;
+        model.landmarks = average_.landmarks;
+        const auto source_from_average = preprocessing::landmark_spline(average_.landmarks, neutral_marks, spline);
         for (const auto& control : placed.controls)
             controls_on_source.push_back(
                 neutral_surface.nearest(source_from_average(control.position_mm), options.snap_to_vertices));
@@ -124,7 +135,7 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
             anchors_on_source.push_back(
                 neutral_surface.nearest(source_from_average(anchor.position_mm), options.snap_to_vertices));
     } else {
-        placed = place_controls(catalogue, expression, neutral_marks, neutral_surface.surface());
+        placed = place_controls(catalogue_, expression_, neutral_marks, neutral_surface.surface());
         model.landmarks = neutral_marks;
         for (auto& control : placed.controls) {
             control.position_mm = neutral_surface.nearest(control.position_mm, options.snap_to_vertices);
@@ -160,13 +171,26 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
     return model;
 }
 
+ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::string& expression,
+                                   const AverageFace& average, const Face& neutral, const Face& expressive,
+                                   const ModelOptions& options, std::vector<FollowedPoint>* followed) {
+    return ExpressionGauge(catalogue, expression, average, options).measure(neutral, expressive, followed);
+}
+
 ExpressionModel mean_expression(std::span<const ExpressionModel> models) {
+    std::vector<const ExpressionModel*> each;
+    for (const auto& model : models) each.push_back(&model);
+    return mean_expression(each);
+}
+
+ExpressionModel mean_expression(std::span<const ExpressionModel* const> models) {
     if (models.empty()) throw InputError("a mean expression needs at least one model");
-    ExpressionModel mean = models.front();
+    ExpressionModel mean = *models.front();
     std::map<std::string, std::size_t> place;
     for (std::size_t k = 0; k < mean.points.size(); ++k) place[mean.points[k].name] = k;
     std::vector<double> count(mean.points.size(), 1.0);
-    for (const auto& model : models.subspan(1)) {
+    for (const auto* next : models.subspan(1)) {
+        const auto& model = *next;
         if (model.expression != mean.expression || model.frame != mean.frame)
             throw InputError(fmt::format("{} and {} do not go together in a mean", mean.expression, model.expression));
         for (const auto& mark : mean.landmarks.all())

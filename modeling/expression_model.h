@@ -73,11 +73,30 @@ struct FollowedPoint {
     geometry::Point expressive_mm = geometry::Point::Zero();  ///< scanner frame of the expressive scan
 };
 
-/// Places the expression's points on the source's neutral face, follows them to its expressive scan (landmark spline of
-/// Eq. 5.5, then the nearest point of the expressive surface) and takes the differences (Eq. 5.6).
-/// @param expression  "12", "4L", "HAPPY": what the scan shows, or one side of it.
-/// @throws InputError if landmarks are missing or the expression is not in the catalogue; NumericalError from the
-/// spline.
+/// Measures one expression on source after source: places its points on the source's neutral face, follows them to its
+/// expressive scan (landmark spline of Eq. 5.5, then the nearest point of the expressive surface) and takes the
+/// differences (Eq. 5.6). What all sources share, the points on the average face, is made once. Keeps references to
+/// catalogue and average.
+class ExpressionGauge {
+public:
+    /// @param expression  "12", "4L", "HAPPY": what the scans show, or one side of it.
+    /// @throws InputError if landmarks are missing or the expression is not in the catalogue.
+    ExpressionGauge(const FacsCatalogue& catalogue, const std::string& expression,
+                    const preprocessing::AverageFace& average, const ModelOptions& options = {});
+    /// From any thread. @throws InputError if landmarks are missing; NumericalError from the spline.
+    [[nodiscard]] ExpressionModel measure(const preprocessing::Face& neutral, const preprocessing::Face& expressive,
+                                          std::vector<FollowedPoint>* followed = nullptr) const;
+
+private:
+    const FacsCatalogue& catalogue_;
+    const preprocessing::AverageFace& average_;
+    std::string expression_;
+    ModelOptions options_;
+    ExpressionModel begun_;      ///< what every model of this expression has
+    PlacedControls on_average_;  ///< empty if the controls are placed on each source itself
+};
+
+/// One source alone. @throws as ExpressionGauge.
 [[nodiscard]] ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::string& expression,
                                                  const preprocessing::AverageFace& average,
                                                  const preprocessing::Face& neutral,
@@ -87,6 +106,7 @@ struct FollowedPoint {
 
 /// Source-independent AU (thesis 7.2): mean displacement of every point over models that stand on the average face. A
 /// point that a model left out is averaged over the rest. @throws InputError if the models do not go together.
+[[nodiscard]] ExpressionModel mean_expression(std::span<const ExpressionModel* const> models);
 [[nodiscard]] ExpressionModel mean_expression(std::span<const ExpressionModel> models);
 
 /// JSON, schema 1: readable, 17 digits.

@@ -39,12 +39,12 @@ ScanId source_scan(const Workspace& workspace, const std::string& subject, const
 ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatalogue& catalogue,
                                      const std::string& expression, const ExpressionSource& source,
                                      const ModelOptions& options) {
-    const auto measure = [&](const std::string& subject, const ScanId& id) {
-        const auto neutral = workspace.face(workspace.neutral(subject));
-        return measure_expression(catalogue, expression, workspace.average(), neutral, workspace.face(id), options);
-    };
     workspace.refuse_hidden(source.subject);
-    if (source.subject != "mean") return measure(source.subject, source_scan(workspace, source.subject, expression));
+    if (source.subject != "mean") {
+        const auto scan = source_scan(workspace, source.subject, expression);
+        return measure_expression(catalogue, expression, workspace.average(),
+                                  workspace.face(workspace.neutral(source.subject)), workspace.face(scan), options);
+    }
 
     std::vector<std::string> subjects;
     std::vector<ScanId> ids;
@@ -60,11 +60,12 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
     if (subjects.empty())
         throw InputError(fmt::format("{}: no other subject shows expression '{}', so there is no mean",
                                      workspace.root().string(), expression));
+    const ExpressionGauge gauge(catalogue, expression, workspace.average(), options);
     std::vector<std::optional<ExpressionModel>> measured(subjects.size());
     std::vector<std::string> faults(subjects.size());
     geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) try {
-                measured[k] = measure(subjects[k], ids[k]);
+                measured[k] = gauge.measure(workspace.face(workspace.neutral(subjects[k])), workspace.face(ids[k]));
             } catch (const std::exception& e) {
                 faults[k] = fmt::format("{}: {}", ids[k].name(), e.what());
             }

@@ -24,11 +24,15 @@ protected:
         delete neutral_;
         delete average_;
     }
-    static ActiveZone zone() {
+    static std::vector<geometry::Vector> motion() {
         const auto at_rest = test::analytic_truth("bs000_N_N_0", {scale, 0}, pose_);
         const auto smiling = test::analytic_truth("bs000_LFAU_12_0", {scale, smile_mm}, test::analytic_pose(1));
-        const TrueSubject subject{neutral_, &at_rest, &smiling};
-        return active_zone_from_truth("12", *average_, std::span(&subject, 1));
+        return true_motion_on_average(*average_, *neutral_, at_rest, smiling.displacement_mm);
+    }
+    static ActiveZone zone(double share = 0.2) {
+        TrueZone sum(*average_);
+        sum.add(motion());
+        return sum.zone("12", share);
     }
     /// Length of the smile's shift at a point of the unit face.
     static double shift_mm(const Point& head) {
@@ -93,15 +97,29 @@ TEST_F(ActiveZoneTest, is_carried_to_a_face_of_other_size_and_pose) {
 }
 
 TEST_F(ActiveZoneTest, a_smaller_share_is_a_larger_zone_and_no_subject_is_refused) {
-    const auto at_rest = test::analytic_truth("bs000_N_N_0", {scale, 0}, pose_);
-    const auto smiling = test::analytic_truth("bs000_LFAU_12_0", {scale, smile_mm}, pose_);
-    const TrueSubject subject{neutral_, &at_rest, &smiling};
-    const auto count = [&](double share) {
-        const auto found = active_zone_from_truth("12", *average_, std::span(&subject, 1), share);
+    const auto count = [](double share) {
+        const auto found = zone(share);
         return std::count(found.active.begin(), found.active.end(), 1);
     };
     EXPECT_GT(count(0.1), count(0.2));
-    EXPECT_THROW((void)active_zone_from_truth("12", *average_, {}), InputError);
+    EXPECT_THROW((void)TrueZone(*average_).zone("12"), InputError);
+}
+
+TEST_F(ActiveZoneTest, of_several_subjects_is_that_of_their_mean) {
+    const auto one = motion();
+    std::vector<geometry::Vector> twice, opposite;
+    for (const auto& way : one) {
+        twice.push_back(2 * way);
+        opposite.push_back(-way);
+    }
+    TrueZone sum(*average_);
+    sum.add(one);
+    sum.add(twice);
+    sum.add(opposite);
+    const auto alone = zone(), mean = sum.zone("12");  // (1 + 2 - 1) / 3
+    for (std::size_t v = 0; v < one.size(); ++v)
+        // Rounding of a few mm.
+        EXPECT_NEAR(mean.displacement_mm[v], 2.0 / 3.0 * alone.displacement_mm[v], 1e-12);
 }
 
 TEST_F(ActiveZoneTest, of_the_catalogue_holds_the_mouth_corners_and_not_the_brows) {

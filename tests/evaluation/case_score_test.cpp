@@ -8,6 +8,12 @@
 namespace mimik::evaluation {
 namespace {
 
+Score summarise_cases(const std::vector<CaseResult>& cases) {
+    ScoreSum sum;
+    for (const auto& result : cases) sum.add(result);
+    return sum.score();
+}
+
 using geometry::Point;
 using geometry::Vector;
 
@@ -99,14 +105,14 @@ TEST_F(CaseScore, a_vertex_that_a_method_leaves_out_counts_as_doing_nothing) {
 
 TEST_F(CaseScore, overshooting_by_more_than_the_way_is_worse_than_nothing) {
     const std::vector<Vector> wild(grid_.size(), Vector(0, 0, 6));
-    const auto score = summarise_cases({judge(wild), judge(still_), CaseResult{}});
+    const auto score = summarise_cases({judge(wild), judge(still_)});
     EXPECT_EQ(score.cases, 2U);
     EXPECT_EQ(score.worse_than_nothing, 1U);
     EXPECT_EQ(score.explained, 1 - 6.0 / 4.0);
     EXPECT_EQ(score.explained_median, -0.5);
 }
 
-TEST(SummariseCases, of_no_case_is_zero_and_says_so) { EXPECT_EQ(summarise_cases({}).cases, 0U); }
+TEST(ScoreSum, of_no_case_is_zero_and_says_so) { EXPECT_EQ(summarise_cases({}).cases, 0U); }
 
 }  // namespace
 }  // namespace mimik::evaluation

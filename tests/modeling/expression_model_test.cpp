@@ -172,7 +172,7 @@ TEST_F(ExpressionModelTest, models_on_different_faces_or_of_different_expression
     const std::array codes = {measure(*source_), measure(*source_, {}, "15")};
     EXPECT_THAT(message_of<InputError>([&] { (void)mean_expression(codes); }),
                 HasSubstr("AU12 and AU15 do not go together"));
-    EXPECT_THROW((void)mean_expression({}), InputError);
+    EXPECT_THROW((void)mean_expression(std::span<const ExpressionModel>{}), InputError);
 }
 
 TEST_F(ExpressionModelTest, a_model_file_reads_back_bit_for_bit) {

@@ -1,0 +1,60 @@
+#include "evaluation/performance.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "preprocessing/control_pairs.h"
+
+namespace mimik::evaluation {
+
+using database::ScanId;
+
+PerformanceReader::PerformanceReader(const preprocessing::Workspace& workspace) : workspace_(workspace) {
+    if (std::filesystem::exists(workspace.database_root() / "truth" / "truth.json"))
+        truth_ = synthesis::open_truth(workspace.database_root());
+}
+
+void PerformanceReader::check_neutral(const std::string& subject) const {
+    const auto neutral = workspace_.face(workspace_.neutral(subject));
+    (void)preprocessing::landmark_spline(workspace_.average().landmarks, neutral.landmarks);
+    if (truth_) (void)synthesis::load_true_scan(*truth_, neutral.id);
+}
+
+Performance PerformanceReader::read(const ScanId& expressive) const {
+    Performance own;
+    own.neutral = workspace_.face(workspace_.neutral(expressive.subject));
+    own.expressive = workspace_.face(expressive);
+    own.neutral_from_expressive = own.expressive.neutral_from_scan;
+    if (!truth_) return own;
+    own.true_neutral = synthesis::load_true_scan(*truth_, own.neutral.id);
+    own.true_expression = true_expression(expressive, *own.true_neutral);
+    own.neutral_from_expressive =
+        own.true_neutral->scanner_from_head * own.true_expression->scanner_from_head.inverse(Eigen::Isometry);
+    return own;
+}
+
+std::vector<geometry::Vector> PerformanceReader::true_field_mm(const ScanId& expressive) const {
+    const auto neutral = synthesis::load_true_scan(*truth_, workspace_.neutral(expressive.subject));
+    return true_expression(expressive, neutral).displacement_mm;
+}
+
+synthesis::TrueScan PerformanceReader::true_expression(const ScanId& expressive,
+                                                       const synthesis::TrueScan& neutral) const {
+    auto scan = synthesis::load_true_scan(*truth_, expressive);
+    for (std::size_t v = 0; v < scan.displacement_mm.size(); ++v) scan.displacement_mm[v] -= neutral.displacement_mm[v];
+    return scan;
+}
+
+void FailureList::add(std::string what) {
+    const std::scoped_lock lock(mutex_);
+    failures_.push_back(std::move(what));
+}
+
+std::vector<std::string> FailureList::sorted() const {
+    const std::scoped_lock lock(mutex_);
+    auto all = failures_;
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+}  // namespace mimik::evaluation

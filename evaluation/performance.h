@@ -1,0 +1,57 @@
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "preprocessing/face.h"
+#include "preprocessing/workspace.h"
+#include "synthesis/truth.h"
+
+namespace mimik::evaluation {
+
+/// One subject at rest and with an expression: the two faces, and what is truly known of them.
+struct Performance {
+    preprocessing::Face neutral, expressive;
+    geometry::Transform neutral_from_expressive;         ///< by the true pose, or else as preprocessing aligned them
+    std::optional<synthesis::TrueScan> true_neutral;     ///< without a truth: none
+    std::optional<synthesis::TrueScan> true_expression;  ///< displacement_mm from the neutral scan
+};
+
+/// Reads performances from a workspace, and their truth from its database if that has one. An experiment reads a face
+/// when somebody needs it and drops it afterwards: memory does not grow with the database. From any thread.
+class PerformanceReader {
+public:
+    explicit PerformanceReader(const preprocessing::Workspace& workspace);
+
+    [[nodiscard]] const preprocessing::Workspace& workspace() const { return workspace_; }
+    [[nodiscard]] bool has_truth() const { return truth_.has_value(); }
+    /// @throws InputError if the subject cannot take part: face, truth or landmark spline to the average are amiss.
+    void check_neutral(const std::string& subject) const;
+    /// @throws InputError naming the file.
+    [[nodiscard]] Performance read(const database::ScanId& expressive) const;
+    /// Displacement of the true surface's vertices from the neutral scan to the expressive one, head frame: from the
+    /// neutral as it was, its micro-expression included, not from a face at rest. @throws InputError naming the file.
+    [[nodiscard]] std::vector<geometry::Vector> true_field_mm(const database::ScanId& expressive) const;
+
+private:
+    [[nodiscard]] synthesis::TrueScan true_expression(const database::ScanId& expressive,
+                                                      const synthesis::TrueScan& neutral) const;
+
+    const preprocessing::Workspace& workspace_;
+    std::optional<synthesis::Truth> truth_;
+};
+
+/// What gave no answer, told by any thread.
+class FailureList {
+public:
+    void add(std::string what);
+    [[nodiscard]] std::vector<std::string> sorted() const;
+
+private:
+    mutable std::mutex mutex_;
+    std::vector<std::string> failures_;
+};
+
+}  // namespace mimik::evaluation
