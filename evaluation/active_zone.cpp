@@ -69,7 +69,7 @@ ActiveZone TrueZone::zone(const std::string& expression, double share) const {
         largest = std::max(largest, zone.displacement_mm.back());
     }
     for (std::size_t v = 0; v < sum_.size(); ++v)
-        zone.active.push_back(average_.grid.inside(v) && zone.displacement_mm[v] > share * largest);
+        zone.active.push_back(average_.grid.inside(v) && zone.displacement_mm[v] > share * largest ? 1 : 0);
     return zone;
 }
 
@@ -79,7 +79,7 @@ ActiveZone active_zone_from_catalogue(const std::string& expression, const Avera
     ActiveZone zone;
     zone.expression = expression;
     for (std::size_t v = 0; v < average.grid.size(); ++v)
-        zone.active.push_back(average.grid.inside(v) && drawn.distance(average.grid.vertices_mm[v]) <= 0);
+        zone.active.push_back(average.grid.inside(v) && drawn.distance(average.grid.vertices_mm[v]) <= 0 ? 1 : 0);
     return zone;
 }
 
@@ -99,7 +99,7 @@ std::vector<char> carry_zone(const ActiveZone& zone, const AverageFace& average,
     const auto nearest = index.nearest(vertices);
     std::vector<char> active(face.grid.size(), 0);
     for (std::size_t v = 0; v < active.size(); ++v)
-        active[v] = face.grid.inside(v) && nearest[v].distance_mm < rim_mm && zone.active[place[nearest[v].index]];
+        if (face.grid.inside(v) && nearest[v].distance_mm < rim_mm) active[v] = zone.active[place[nearest[v].index]];
     return active;
 }
 
