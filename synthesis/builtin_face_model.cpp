@@ -47,23 +47,41 @@ public:
     }
     [[nodiscard]] std::vector<geometry::Vector> shape_displacement_mm(const Identity& identity,
                                                                       const std::string& shape) const override {
-        const bool right = shape.ends_with("_R");
-        const auto stem = right || shape.ends_with("_L") ? shape.substr(0, shape.size() - 2) : shape;
-        const auto found = facial_motions().find(stem);
-        if (found == facial_motions().end() || found->second.central != (stem == shape))
-            throw InputError(
-                fmt::format("the built-in face has no shape '{}'; it has: {}", shape, fmt::join(shapes(), ", ")));
-        auto left = muscles_.displacement_mm(found->second, neutral_mm(identity));
-        if (!right) return left;
-        std::vector<geometry::Vector> mirrored(left.size());
-        for (std::size_t i = 0; i < left.size(); ++i) {
-            mirrored[i] = left[sheet_.mirror[i]];
-            mirrored[i].x() = -mirrored[i].x();
+        return shape_displacements_mm(identity, {shape}).front();
+    }
+    /// One neutral face for all; a right shape is its left one mirrored.
+    [[nodiscard]] std::vector<std::vector<geometry::Vector>> shape_displacements_mm(
+        const Identity& identity, const std::vector<std::string>& names) const override {
+        const auto neutral = neutral_mm(identity);
+        std::map<const Motion*, std::vector<geometry::Vector>> left;
+        std::vector<std::vector<geometry::Vector>> displacements;
+        displacements.reserve(names.size());
+        for (const auto& name : names) {
+            const Motion& motion = find_motion(name);
+            auto& moved = left[&motion];
+            if (moved.empty()) moved = muscles_.displacement_mm(motion, neutral);
+            displacements.push_back(name.ends_with("_R") ? mirrored(moved) : moved);
         }
-        return mirrored;
+        return displacements;
     }
 
 private:
+    [[nodiscard]] const Motion& find_motion(const std::string& shape) const {
+        const bool sided = shape.ends_with("_L") || shape.ends_with("_R");
+        const auto found = facial_motions().find(sided ? shape.substr(0, shape.size() - 2) : shape);
+        if (found == facial_motions().end() || found->second.central == sided)
+            throw InputError(
+                fmt::format("the built-in face has no shape '{}'; it has: {}", shape, fmt::join(shapes(), ", ")));
+        return found->second;
+    }
+    [[nodiscard]] std::vector<geometry::Vector> mirrored(const std::vector<geometry::Vector>& moved) const {
+        std::vector<geometry::Vector> other(moved.size());
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            other[i] = moved[sheet_.mirror[i]];
+            other[i].x() = -other[i].x();
+        }
+        return other;
+    }
     /// Halfway between the mean woman and the mean man: the face on which amplitudes are stated.
     [[nodiscard]] static FaceNumbers mean_numbers() {
         const Identity woman{Sex::female, 0, draw_scores(0, 0), {}}, man{Sex::male, 0, draw_scores(0, 0), {}};

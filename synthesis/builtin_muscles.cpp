@@ -158,6 +158,7 @@ void MuscleModel::gather(std::span<const Point> neutral_mm, std::vector<Vector>&
 /// uneven spacing.
 void MuscleModel::smooth_along(const SheetLine& line, std::vector<double>& values) const {
     constexpr double square = spread_mm * spread_mm / spread_rounds;
+    if (std::all_of(line.vertices.begin(), line.vertices.end(), [&](auto i) { return values[i] == 0; })) return;
     const std::size_t n = line.vertices.size();
     std::vector<double> upper(n), right(n);
     for (std::size_t i = 0; i < n; ++i) {

@@ -14,6 +14,7 @@ std::vector<RasterHit> depth_raster(std::span<const geometry::Point> vertices_mm
                    &c = vertices_mm[triangles[t][2]];
         const double area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
         if (std::abs(area) < 1e-12) continue;  // seen edge on
+        const double per_area = 1.0 / area;
         const auto first = [&](double low, double origin) {
             return std::max(0, static_cast<int>(std::ceil((low - origin) * inverse)));
         };
@@ -28,8 +29,8 @@ std::vector<RasterHit> depth_raster(std::span<const geometry::Point> vertices_mm
             const double y = lattice.y0_mm + row * lattice.spacing_mm;
             for (int col = col0; col <= col1; ++col) {
                 const double x = lattice.x0_mm + col * lattice.spacing_mm;
-                const double wb = ((x - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (y - a.y())) / area;
-                const double wc = ((b.x() - a.x()) * (y - a.y()) - (x - a.x()) * (b.y() - a.y())) / area;
+                const double wb = ((x - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (y - a.y())) * per_area;
+                const double wc = ((b.x() - a.x()) * (y - a.y()) - (x - a.x()) * (b.y() - a.y())) * per_area;
                 const double wa = 1.0 - wb - wc;
                 // A hair of tolerance: a ray along a shared edge must not slip through.
                 if (wa < -1e-9 || wb < -1e-9 || wc < -1e-9) continue;

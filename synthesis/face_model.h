@@ -51,6 +51,14 @@ public:
     /// Displacement of every vertex at full strength (weight 1) on this person's neutral face.
     [[nodiscard]] virtual std::vector<geometry::Vector> shape_displacement_mm(const Identity& identity,
                                                                               const std::string& shape) const = 0;
+    /// The same for several shapes of one person, where a model can share work among them.
+    [[nodiscard]] virtual std::vector<std::vector<geometry::Vector>> shape_displacements_mm(
+        const Identity& identity, const std::vector<std::string>& shapes) const {
+        std::vector<std::vector<geometry::Vector>> displacements;
+        displacements.reserve(shapes.size());
+        for (const auto& shape : shapes) displacements.push_back(shape_displacement_mm(identity, shape));
+        return displacements;
+    }
 };
 
 /// The procedural model: needs no file.

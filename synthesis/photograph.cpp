@@ -13,7 +13,7 @@ namespace {
 
 using geometry::Point;
 using geometry::Vector;
-using Colour = Eigen::Vector3d;  // 0..255
+using Colour = Complexion::Colour;
 
 struct Palette {
     Colour skin, lip, hair, iris;
@@ -39,35 +39,34 @@ double smooth_step(double low, double high, double value) {
 Colour mix(const Colour& a, const Colour& b, double share_of_b) { return a + share_of_b * (b - a); }
 
 /// The colour of an eyeball seen at `offset` (x, y, mm) from the middle of its iris.
-Colour eye_colour(const Eigen::Vector2d& offset, const Palette& palette) {
+Colour eye_colour(const Eigen::Vector2d& offset, const Colour& iris) {
     const double radius = offset.norm();
     if ((offset - Eigen::Vector2d(1.4, 1.6)).norm() < 0.8) return {250, 250, 250};  // reflection of the flash
-    Colour colour = mix(Colour(26, 20, 18), palette.iris, smooth_step(2.0, 2.6, radius));
-    colour = mix(colour, palette.iris * 0.5, smooth_step(4.6, 5.8, radius));
+    Colour colour = mix(Colour(26, 20, 18), iris, smooth_step(2.0, 2.6, radius));
+    colour = mix(colour, iris * 0.5, smooth_step(4.6, 5.8, radius));
     colour = mix(colour, Colour(222, 214, 208), smooth_step(5.6, 6.3, radius));
     return colour * (1.0 - 0.35 * smooth_step(6.0, 15.0, radius));
 }
 
 }  // namespace
 
-geometry::Image photograph(const FaceModel& model, const Subject& subject, const std::vector<Point>& vertices_mm,
-                           const FaceWindow& window, const SyntheticScan& scan, std::uint64_t seed,
-                           const ScannerOptions& options) {
+Complexion draw_complexion(const FaceModel& model, const Subject& subject, const FaceWindow& window,
+                           std::uint64_t seed) {
     const Palette palette = draw_palette(RandomStream(seed, subject.name + "/palette"));
-    std::vector<Point> vertices(vertices_mm.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = scan.scanner_from_head * vertices_mm[i];
-    const auto triangles = geometry::triangulate(model.faces());
-    const auto normals = geometry::vertex_normals(vertices, triangles);
-
+    Complexion complexion;
+    complexion.hair = palette.hair;
+    complexion.iris = palette.iris;
     // Colours belong to the skin: blotches and hairline are placed on the resting face and move with it.
     const SmoothField blotches(stream_seed(seed, subject.name + "/blotches"), 2, 7.0, Point::Constant(-220),
                                Point::Constant(220));
     const auto& regions = model.vertex_regions();
-    const auto& marks = model.landmark_vertices();
-    const double brow_height = subject.resting_mm[marks.at("brow_middle_left")].y();
-    std::vector<Colour> colours(vertices.size());
-    std::vector<double> hairiness(vertices.size(), 0.0);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const double brow_height = subject.resting_mm[model.landmark_vertices().at("brow_middle_left")].y();
+    auto& colours = complexion.colours;
+    auto& hairiness = complexion.hairiness;
+    colours.resize(subject.resting_mm.size());
+    hairiness.assign(subject.resting_mm.size(), 0.0);
+    complexion.eyeball.assign(subject.resting_mm.size(), 0.0);
+    for (std::size_t i = 0; i < colours.size(); ++i) {
         const Point& resting = subject.resting_mm[i];
         if (resting.z() < window.centre_mm.z() - 130.0) {
             colours[i] = palette.hair;
@@ -76,6 +75,7 @@ geometry::Image photograph(const FaceModel& model, const Subject& subject, const
         const auto blotch = blotches.at(resting);
         Colour colour = palette.skin + Colour(2, -3, -3) * blotch[0] + Colour(3, 3, 3) * blotch[1];
         if (regions[i] == "lip") colour = palette.lip + Colour(3, 2, 2) * blotch[1];
+        if (regions[i] == "eye") complexion.eyeball[i] = 1.0;
         if (regions[i] == "brow") hairiness[i] = 0.8;
         if (regions[i] == "nostril") colour *= 0.45;
         if (regions[i] == "lid") colour = mix(colour, palette.hair, 0.18);
@@ -83,6 +83,19 @@ geometry::Image photograph(const FaceModel& model, const Subject& subject, const
             hairiness[i] = std::max(hairiness[i], smooth_step(0.97, 1.08, window.level(resting) + 0.02 * blotch[0]));
         colours[i] = colour;
     }
+    return complexion;
+}
+
+geometry::Image photograph(const FaceModel& model, const Complexion& complexion, const std::vector<Point>& vertices_mm,
+                           const SyntheticScan& scan, const ScannerOptions& options) {
+    std::vector<Point> vertices(vertices_mm.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = scan.scanner_from_head * vertices_mm[i];
+    const auto triangles = geometry::triangulate(model.faces());
+    const auto normals = geometry::vertex_normals(vertices, triangles);
+
+    const auto& marks = model.landmark_vertices();
+    const auto& colours = complexion.colours;
+    const auto& hairiness = complexion.hairiness;
 
     RasterLattice lattice;
     lattice.spacing_mm = 1.0 / options.texture_pixels_per_mm;
@@ -113,8 +126,8 @@ geometry::Image photograph(const FaceModel& model, const Subject& subject, const
             });
             double eyeball = 0;
             for (int c = 0; hit.hit() && c < 3; ++c)
-                if (regions[triangles[hit.triangle][static_cast<std::size_t>(c)]] == "eye")
-                    eyeball += hit.barycentric[c];
+                eyeball +=
+                    hit.barycentric[c] * complexion.eyeball[triangles[hit.triangle][static_cast<std::size_t>(c)]];
             const bool skin =
                 hit.hit() && hit.front && (eye == eyes.end() || (hit.z_mm > eye->z() - 9.0 && eyeball < 0.5));
             if (skin) {
@@ -130,14 +143,16 @@ geometry::Image photograph(const FaceModel& model, const Subject& subject, const
                 }
                 normal.normalize();
                 // Strands: two crossing waves of about a millimetre.
-                const double strands =
-                    0.8 + 0.2 * std::sin(5.0 * x + 1.8 * y + 2.0 * std::sin(0.7 * y)) * std::sin(2.1 * y - 1.3 * x);
-                albedo = mix(albedo, palette.hair, std::clamp(hair * strands, 0.0, 1.0));
+                if (hair > 0) {
+                    const double strands =
+                        0.8 + 0.2 * std::sin(5.0 * x + 1.8 * y + 2.0 * std::sin(0.7 * y)) * std::sin(2.1 * y - 1.3 * x);
+                    albedo = mix(albedo, complexion.hair, std::clamp(hair * strands, 0.0, 1.0));
+                }
                 const double shade =
                     0.34 + 0.52 * std::max(0.0, normal.dot(light)) + 0.2 * std::max(0.0, normal.dot(second_light));
                 colour = albedo * shade;
             } else if (eye != eyes.end()) {
-                colour = eye_colour(Eigen::Vector2d(x - eye->x(), y - eye->y() - 0.5), palette);
+                colour = eye_colour(Eigen::Vector2d(x - eye->x(), y - eye->y() - 0.5), complexion.iris);
             } else if (hit.hit()) {
                 colour = {48, 18, 18};  // inside the mouth
             }

@@ -216,10 +216,13 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
                              high);
     const SmoothField patches(stream_seed(seed, scan_name + "/holes"), 1, 1.6, low, high);
     const SmoothField border(stream_seed(seed, scan_name + "/border"), 1, 9.0, low, high);
-    const auto& regions = model.vertex_regions();
-    std::map<std::string, double> thresholds;
-    for (const auto& region : regions)
-        if (!thresholds.contains(region)) thresholds[region] = exceeded_on(lost_share(region, options));
+    std::map<std::string, double> by_region;
+    std::vector<double> thresholds;
+    for (const auto& region : model.vertex_regions()) {
+        const auto [entry, added] = by_region.try_emplace(region);
+        if (added) entry->second = exceeded_on(lost_share(region, options));
+        thresholds.push_back(entry->second);
+    }
     const auto head_from_scanner = result.scanner_from_head.inverse();
     RandomStream noise(seed, scan_name + "/noise");
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -231,7 +234,9 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
         const std::size_t lowest_first = i / static_cast<std::size_t>(lattice.cols);
         const auto row = static_cast<double>(lowest_first);
         const Point seen(lattice.x0_mm + col * lattice.spacing_mm, lattice.y0_mm + row * lattice.spacing_mm, hit.z_mm);
-        if (window.level(head_from_scanner * seen) > 1.0 + 0.015 * border.at(seen)[0]) continue;
+        const double level = window.level(head_from_scanner * seen);
+        // Farther from the border than ten standard deviations its raggedness decides nothing.
+        if (level > 1.15 || (level > 0.85 && level > 1.0 + 0.015 * border.at(seen)[0])) continue;
         const auto& corners = triangles[hit.triangle];
         Vector normal = Vector::Zero();
         for (int c = 0; c < 3; ++c) normal += hit.barycentric[c] * normals[corners[static_cast<std::size_t>(c)]];
@@ -241,7 +246,7 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
         }
         int nearest = 0;
         hit.barycentric.maxCoeff(&nearest);
-        const double threshold = thresholds.at(regions[corners[static_cast<std::size_t>(nearest)]]);
+        const double threshold = thresholds[corners[static_cast<std::size_t>(nearest)]];
         if (std::isfinite(threshold) ? patches.at(seen)[0] > threshold : threshold < 0) {
             ++result.lost_holes;
             continue;

@@ -44,29 +44,54 @@ SmoothField::SmoothField(std::uint64_t seed, int components, double length_mm, c
     RandomStream random(seed);
     coefficients_.resize(count);
     for (double& c : coefficients_) c = random.normal();
+    if (low_mm.z() != high_mm.z()) return;
+    flat_ = true;
+    const auto layers = cubic_weights(0).value;
+    const std::size_t layer = count / static_cast<std::size_t>(size_[2]);
+    for (std::size_t i = 0; i < layer; ++i) {
+        double sum = 0;
+        for (std::size_t k = 0; k < layers.size(); ++k) sum += layers[k] * coefficients_[k * layer + i];
+        coefficients_[i] = sum;
+    }
+    coefficients_.resize(layer);
 }
 
 std::array<double, 4> SmoothField::at(const geometry::Point& position_mm) const {
+    switch (components_) {
+        case 1:
+            return sum<1>(position_mm);
+        case 2:
+            return sum<2>(position_mm);
+        case 3:
+            return sum<3>(position_mm);
+        default:
+            return sum<4>(position_mm);
+    }
+}
+
+template <int components>
+std::array<double, 4> SmoothField::sum(const geometry::Point& position_mm) const {
     std::array<Weights, 3> w;
-    for (int axis = 0; axis < 3; ++axis) {
+    w[2] = {0, {1, 0, 0, 0}};
+    for (int axis = 0; axis < (flat_ ? 2 : 3); ++axis) {
         const double inside = std::clamp(position_mm[axis], low_mm_[axis], high_mm_[axis]);
         w[static_cast<std::size_t>(axis)] = cubic_weights((inside - low_mm_[axis]) / spacing_mm_);
     }
-    std::array<double, 4> sum{};
-    for (int k = 0; k < 4; ++k)
+    std::array<double, 4> total{};
+    for (int k = 0; k < (flat_ ? 1 : 4); ++k)
         for (int j = 0; j < 4; ++j) {
             const double wkj = w[2].value[static_cast<std::size_t>(k)] * w[1].value[static_cast<std::size_t>(j)];
             const std::size_t row = (static_cast<std::size_t>(w[2].first + k) * static_cast<std::size_t>(size_[1]) +
                                      static_cast<std::size_t>(w[1].first + j)) *
                                     static_cast<std::size_t>(size_[0]);
             const double* at =
-                &coefficients_[(row + static_cast<std::size_t>(w[0].first)) * static_cast<std::size_t>(components_)];
+                &coefficients_[(row + static_cast<std::size_t>(w[0].first)) * static_cast<std::size_t>(components)];
             for (std::size_t i = 0; i < 4; ++i) {
                 const double weight = wkj * w[0].value[i];
-                for (int c = 0; c < components_; ++c) sum[static_cast<std::size_t>(c)] += weight * *at++;
+                for (int c = 0; c < components; ++c) total[static_cast<std::size_t>(c)] += weight * *at++;
             }
         }
-    return sum;
+    return total;
 }
 
 }  // namespace mimik::synthesis

@@ -85,8 +85,7 @@ Subject draw_subject(const FaceModel& model, const std::string& name, std::uint6
 
     subject.shapes = model.shapes();
     std::sort(subject.shapes.begin(), subject.shapes.end());
-    for (const auto& shape : subject.shapes)
-        subject.shape_displacements_mm.push_back(model.shape_displacement_mm(subject.identity, shape));
+    subject.shape_displacements_mm = model.shape_displacements_mm(subject.identity, subject.shapes);
     return subject;
 }
 

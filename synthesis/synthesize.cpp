@@ -129,13 +129,14 @@ struct MadeSubject {
 };
 
 /// Everything about one scan: performance, exposure, photograph, files.
-std::string make_scan(const fs::path& folder, const FaceModel& model, const Subject& subject, const Task& task,
-                      const FaceWindow& window, const SynthesizeOptions& options, SynthesizeReport& report) {
+std::string make_scan(const fs::path& folder, const FaceModel& model, const Subject& subject,
+                      const Complexion& complexion, const Task& task, const FaceWindow& window,
+                      const SynthesizeOptions& options, SynthesizeReport& report) {
     const database::ScanId id{subject.name, task.expression.group, task.expression.code, task.repetition};
     const std::string name = id.name();
     const auto performance = perform(subject, task.expression, name, options.seed, options.variances);
     auto made = scan_face(model, performance.vertices_mm, window, name, options.seed, options.scanner);
-    const auto image = photograph(model, subject, performance.vertices_mm, window, made, options.seed, options.scanner);
+    const auto image = photograph(model, complexion, performance.vertices_mm, made, options.scanner);
 
     const fs::path stem = folder / subject.name / name;
     made.scan.texture_file = name + ".png";
@@ -174,10 +175,11 @@ MadeSubject make_subject(const fs::path& folder, const FaceModel& model, const s
                          const std::vector<Task>& tasks, const SynthesizeOptions& options, SynthesizeReport& report) {
     const Subject subject = draw_subject(model, name, options.seed, options.variances);
     const FaceWindow window = face_window(model, subject.resting_mm);
+    const Complexion complexion = draw_complexion(model, subject, window, options.seed);
     std::vector<std::string> lines(tasks.size());
     geometry::parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t)
-            lines[t] = make_scan(folder, model, subject, tasks[t], window, options, report);
+            lines[t] = make_scan(folder, model, subject, complexion, tasks[t], window, options, report);
     });
     MadeSubject made;
     for (std::size_t t = 0; t < tasks.size(); ++t) {
