@@ -50,9 +50,9 @@ const std::map<std::string, Motion>& facial_motions() {
                                        {{14, -77}, {50, -30}, {1.0, 2.0, -2.0}, 30, 26, 24}},
                            .furrows = {{{{16, -43}, {19, -49}, {24, -60}, {29, -72}}, 0.7, 2.0}}};
         // Buccinator: the corner against the teeth, the cheek before it folded outward.
-        m["mouthDimple"] = {.muscles = {{{25, -77}, {62, -66}, {1.2, 3.8, -6.2}, 44, 32, 34}},
-                            .furrows = {{{{34, -66}, {37, -76}, {34, -87}}, 0.8, 2.4}},
-                            .bulges = {{{52, -62}, 2.4, 26, 30}}};
+        m["mouthDimple"] = {.muscles = {{{25, -77}, {62, -66}, {1.2, 3.6, -5.8}, 46, 28, 38}},
+                            .furrows = {{{{33, -67}, {35.5, -76}, {33, -86}}, 0.9, 2.4}},
+                            .bulges = {{{56, -60}, 1.8, 26, 32}}};
         // Depressor anguli oris.
         m["mouthFrown"] = {.muscles = {{{24.7, -77}, {33, -114}, {1.9, -5.1, -2.2}, 42, 40, 32}},
                            .furrows = {{{{26, -81}, {29, -90}, {30, -100}}, 0.45, 2.2}}};
@@ -97,6 +97,10 @@ const std::map<std::string, Motion>& facial_motions() {
         m["cheekPuff"] = {.muscles = {{{44, -70}, {44, -40}, {0.6, 0.8, 4.4}, 44, 46, 42}},
                           .bulges = {{{46, -70}, 7.0, 50, 48}}};
         m["jawOpen"] = {.central = true, .sphincter = {.jaw_rad = 0.35}};
+        // Both lateral pterygoids, or the one of the other side.
+        m["jawForward"] = {.central = true, .sphincter = {.jaw_rad = 0.02, .jaw_forward_mm = 10.5}};
+        m["jawLeft"] = {.central = true, .sphincter = {.jaw_left_mm = 8.9}};
+        m["jawRight"] = {.central = true, .sphincter = {.jaw_left_mm = -8.9}};
         return m;
     }();
     return motions;

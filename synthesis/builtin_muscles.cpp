@@ -277,14 +277,15 @@ void MuscleModel::turn_lips(const Sphincter& lips, double side, std::span<const 
     }
 }
 
-void MuscleModel::open_jaw(double angle, std::span<const Point> neutral_mm, std::vector<Vector>& moved) const {
+void MuscleModel::move_jaw(const Sphincter& jaw, std::span<const Point> neutral_mm, std::vector<Vector>& moved) const {
     using namespace place;
     // The joints lie just before the ears, under the skin.
     const Point& ear = neutral_mm[sheet_.nearest(98, -24)];
     const Eigen::Vector2d axis(ear.y(), ear.z() - 13);
     // An opening jaw also glides forward and down in its joints, about 6 and 4 mm when wide open.
     constexpr double glide_forward = 17, glide_down = 11;
-    const double c = std::cos(angle), s = std::sin(angle);
+    const double angle = jaw.jaw_rad, c = std::cos(angle), s = std::sin(angle);
+    const Vector shift(jaw.jaw_left_mm, -glide_down * angle, glide_forward * angle + jaw.jaw_forward_mm);
     for (std::size_t i = 0; i < moved.size(); ++i) {
         const auto& p = sheet_.vertices[i];
         const double a = std::abs(p.s);
@@ -299,8 +300,7 @@ void MuscleModel::open_jaw(double angle, std::span<const Point> neutral_mm, std:
             w *= smooth_step(-148, gnathion + 2, p.v);
         }
         const double y = neutral_mm[i].y() - axis.x(), z = neutral_mm[i].z() - axis.y();
-        const Vector turned(0, c * y - s * z - y - glide_down * angle, s * y + c * z - z + glide_forward * angle);
-        moved[i] += w * turned;
+        moved[i] += w * (shift + Vector(0, c * y - s * z - y, s * y + c * z - z));
     }
 }
 
@@ -343,7 +343,7 @@ std::vector<Vector> MuscleModel::displacement_mm(const Motion& motion, std::span
     if (own.upper_lid_down != 0 || own.lower_lid_up != 0 || own.upper_lid_lift_mm != 0)
         move_lids(own, neutral_mm, moved);
     if (own.upper_roll_mm != 0 || own.lower_roll_mm != 0) turn_lips(own, motion.central ? 0 : 1, neutral_mm, moved);
-    if (own.jaw_rad != 0) open_jaw(own.jaw_rad, neutral_mm, moved);
+    if (own.jaw_rad != 0 || own.jaw_forward_mm != 0 || own.jaw_left_mm != 0) move_jaw(own, neutral_mm, moved);
     part_crossing_lips(neutral_mm, moved);
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] *= held_[i];
     return moved;

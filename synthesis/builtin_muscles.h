@@ -49,6 +49,8 @@ struct Sphincter {
     double lower_roll_mm = 0;
     double press = 0;    ///< share of the red that is pressed out of sight
     double jaw_rad = 0;  ///< opening of the jaw about the joints
+    double jaw_forward_mm = 0;
+    double jaw_left_mm = 0;  ///< to the subject's own left; negative: to the right
 };
 
 /// One elementary motion, described on the left side; `central` ones act on both.
@@ -90,7 +92,7 @@ private:
                    std::vector<geometry::Vector>& moved) const;
     void turn_lips(const Sphincter& lips, double side, std::span<const geometry::Point> neutral_mm,
                    std::vector<geometry::Vector>& moved) const;
-    void open_jaw(double angle, std::span<const geometry::Point> neutral_mm,
+    void move_jaw(const Sphincter& jaw, std::span<const geometry::Point> neutral_mm,
                   std::vector<geometry::Vector>& moved) const;
     void part_crossing_lips(std::span<const geometry::Point> neutral_mm, std::vector<geometry::Vector>& moved) const;
 

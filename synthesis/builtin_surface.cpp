@@ -232,7 +232,7 @@ private:
         // Brow hair and the fat under it stand out a little.
         z += 0.7 * bell(t - brow_line(a), 2.6) * smooth_step(8, 14, a) * (1 - smooth_step(46, 56, a));
         // Tear trough, from the inner canthus down and out.
-        z -= (0.5 + 0.3 * face_[Form::under_eye]) * bell(t + 14.5 + 0.55 * (a - 15), 4.6) * smooth_step(9, 16, a) *
+        z -= (0.35 + 0.3 * face_[Form::under_eye]) * bell(t + 14.5 + 0.55 * (a - 15), 4.6) * smooth_step(9, 16, a) *
              (1 - smooth_step(24, 42, a));
         // Nasolabial fold: a soft furrow with the cheek standing over it.
         const double fold = 19 + 0.36 * (-47 - t);
@@ -313,7 +313,7 @@ private:
         if (std::abs(q) > 1.6 || v > 16 || v < -27) return;
         const double deep = 0.9 * face_[Form::eye_depth];
         const double dy = p.t - eye - 0.8 * q;
-        const double tall = dy > 0 ? 13.2 : 16.5;  // the lower lid runs out into the cheek more gently
+        const double tall = 13.2;
         const double r2 = q * q * 0.84 + (dy / tall) * (dy / tall);
         double ball = -22.8 - deep + 12.4 * std::sqrt(std::max(0.03, 1 - r2)) - 2.9 * q;
         ball -= 30 * smooth_step(0.93, 1.5, std::sqrt(r2));
@@ -326,7 +326,7 @@ private:
         }
         const double socket = z - deep * bell(q, 0.8) * hump(above_middle, 16);
         // The lower lid runs out into the cheek, the upper one dives under the brow.
-        z = smooth_max(socket, eye_z, 3.2 + 6.8 * smooth_step(0, -12, above_middle));
+        z = smooth_max(socket, eye_z, 3.2 + 9 * smooth_step(-3, -9, above_middle));
         // Fold of the upper lid: a crease, and the skin over it that hangs forward.
         const double fold = v - (upper_lid + 4.3 - 1.2 * q * q);
         const double along = hump(q - 0.05, 1.2);

@@ -57,6 +57,8 @@ const std::vector<ActionUnit>& action_units() {
         {28,
          {{"mouthRollLower", .80}, {"mouthRollUpper", .80}},
          {{"mouthShrugLower", .12, .07}, {"mouthPress", .10, .07}}},
+        {29, {{"jawForward", .85}}, {{"mouthLowerDown", .08, .06}, {"mouthShrugLower", .06, .06}}},
+        {30, {{"jaw", .85}}, {{"mouthStretch", .08, .06}, {"mouthFrown", .06, .06}}},
         {34, {{"cheekPuff", .80}}, {{"mouthPress", .15, .08}, {"mouthPucker", .08, .06}}},
         {43, {{"eyeBlink", .95}}, {{"eyeSquint", .10, .07}, {"cheekSquint", .06, .06}}},
         {44, {{"eyeSquint", .85}, {"eyeBlink", .35}}, {{"cheekSquint", .15, .08}, {"browDown", .10, .07}}},
@@ -84,7 +86,8 @@ const std::vector<Emotion>& emotions() {
 
 bool has_sides(const std::string& shape) {
     static const std::set<std::string> central = {"mouthShrugLower", "mouthShrugUpper", "mouthPucker",    "mouthFunnel",
-                                                  "jawOpen",         "mouthRollLower",  "mouthRollUpper", "jawForward"};
+                                                  "jawOpen",         "mouthRollLower",  "mouthRollUpper", "jawForward",
+                                                  "jawLeft",         "jawRight"};
     return !central.contains(shape);
 }
 
@@ -99,6 +102,7 @@ void add(std::vector<ShapeWeight>& list, const ShapeWeight& part, double strengt
             found->deviation = std::hypot(found->deviation, strength * part.deviation);
         }
     };
+    if (part.shape == "jaw") return put(side == database::Side::left ? "jawLeft" : "jawRight");
     if (!has_sides(part.shape)) return put(part.shape);
     if (side != database::Side::right) put(part.shape + "_L");
     if (side != database::Side::left) put(part.shape + "_R");
@@ -154,6 +158,9 @@ Expression make_expression(std::string_view text) {
         throw InputError(fmt::format("expression '{}' is not known; there are: {}", text, known_codes()));
     if (id.side() != database::Side::both && !has_sides(unit->main_shapes.front().shape))
         throw InputError(fmt::format("expression '{}': AU{} moves the whole mouth and has no sides", text, *number));
+    if (unit->main_shapes.front().shape == "jaw" && id.side() == database::Side::both)
+        throw InputError(
+            fmt::format("expression '{}': the jaw moves to one side; give {}L or {}R", text, *number, *number));
     expression.group = database::group_of_action_unit(*number);
     expression.action_units[*number] = 1.0;
     for (const auto& part : unit->main_shapes) add(expression.main_shapes, part, 1.0, id.side());

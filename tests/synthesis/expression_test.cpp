@@ -33,6 +33,18 @@ TEST(Expression, groups_follow_the_face_half_and_lists_keep_their_order_without_
     EXPECT_EQ(make_expressions("all").size(), 10U + 6U + 16U);
 }
 
+TEST(Expression, a_jaw_goes_to_the_side_that_is_named_and_needs_one) {
+    EXPECT_EQ(make_expression("30L").main_shapes.at(0).shape, "jawLeft");
+    EXPECT_EQ(make_expression("30R").main_shapes.at(0).shape, "jawRight");
+    EXPECT_EQ(make_expression("29").main_shapes.at(0).shape, "jawForward");
+    try {
+        (void)make_expression("30");
+        FAIL();
+    } catch (const InputError& e) {
+        EXPECT_THAT(e.what(), HasSubstr("30L or 30R"));
+    }
+}
+
 TEST(Expression, unknown_codes_are_refused_with_the_codes_there_are) {
     try {
         (void)make_expression("LFAU_99");
