@@ -1,22 +1,12 @@
 #!/usr/bin/python3
 """Times SciPy's griddata on the work of bench_gridding (one scan of about 35,000 points to 150 x 150).
 
-Prints JSON in the shape of Google Benchmark: {"benchmarks": [{"name": ..., "cpu_time": milliseconds}, ...]}.
-One thread: set OMP_NUM_THREADS and OPENBLAS_NUM_THREADS to 1. Needs numpy and scipy.
+peer_timing.py says what is printed and what is needed.
 """
-import json
-import time
-
 import numpy as np
 from scipy.interpolate import griddata
 
-
-def face_height(x, y):
-    def bump(cx, cy, wx, wy):
-        return np.exp(-0.5 * (((x - cx) / wx) ** 2 + ((y - cy) / wy) ** 2))
-
-    return (90 * bump(0, 0, 60, 90) + 22 * bump(0, -5, 9, 16) - 9 * (bump(-32, 28, 12, 9) + bump(32, 28, 12, 9))
-            + 4 * (bump(0, -38, 18, 4) + bump(0, -48, 16, 4)))
+from peer_timing import face_height, tell, timed
 
 
 def scan(jitter_mm):
@@ -34,24 +24,14 @@ def scan(jitter_mm):
     return x[kept], y[kept], z[kept]
 
 
-def median_ms(call, least_s=1.0, least_rounds=5):
-    rounds = []
-    started = time.perf_counter()
-    while len(rounds) < least_rounds or time.perf_counter() - started < least_s:
-        before = time.process_time()
-        call()
-        rounds.append(time.process_time() - before)
-    return 1e3 * sorted(rounds)[len(rounds) // 2]
-
-
 def main():
     results = []
     for name, jitter_mm in (("general", 0.08), ("lattice", 0.0)):
         x, y, z = scan(jitter_mm)
         gx, gy = np.meshgrid(np.linspace(x.min(), x.max(), 150), np.linspace(y.min(), y.max(), 150))
-        milliseconds = median_ms(lambda: griddata((x, y), z, (gx, gy), method="linear"))
-        results.append({"name": f"scipy_gridding/{name}", "cpu_time": milliseconds, "time_unit": "ms"})
-    print(json.dumps({"benchmarks": results}, indent=1))
+        results.append(timed(f"scipy_gridding/{name}", lambda: griddata((x, y), z, (gx, gy), method="linear"),
+                             least_s=1.0))
+    tell(results)
 
 
 if __name__ == "__main__":

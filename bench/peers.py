@@ -1,23 +1,13 @@
 #!/usr/bin/python3
 """Times the Python rivals of the thin-plate spline (SciPy, cache-blocked NumPy) on the work of bench_thin_plate_spline.
 
-Prints JSON in the shape of Google Benchmark: {"benchmarks": [{"name": ..., "cpu_time": milliseconds}, ...]}.
-One thread: set OMP_NUM_THREADS and OPENBLAS_NUM_THREADS to 1. Needs numpy and scipy.
+peer_timing.py says what is printed and what is needed.
 """
-import json
-import time
-
 import numpy as np
 from scipy.interpolate import RBFInterpolator
 from scipy.linalg import solve
 
-
-def face_height(x, y):
-    def bump(cx, cy, wx, wy):
-        return np.exp(-0.5 * (((x - cx) / wx) ** 2 + ((y - cy) / wy) ** 2))
-
-    return (90 * bump(0, 0, 60, 90) + 22 * bump(0, -5, 9, 16) - 9 * (bump(-32, 28, 12, 9) + bump(32, 28, 12, 9))
-            + 4 * (bump(0, -38, 18, 4) + bump(0, -48, 16, 4)))
+from peer_timing import face_height, tell, timed
 
 
 def grid():
@@ -54,22 +44,12 @@ def numpy_evaluate(points, source, weights, affine, block=128):
     return moved
 
 
-def median_ms(call, least_s=0.5, least_rounds=5):
-    rounds = []
-    started = time.perf_counter()
-    while len(rounds) < least_rounds or time.perf_counter() - started < least_s:
-        before = time.process_time()
-        call()
-        rounds.append(time.process_time() - before)
-    return 1e3 * sorted(rounds)[len(rounds) // 2]
-
-
 def main():
     points = grid()
     results = []
 
     def add(name, call):
-        results.append({"name": name, "cpu_time": median_ms(call), "time_unit": "ms"})
+        results.append(timed(name, call))
 
     for n in (22, 40, 100, 500):
         source = points[(np.arange(n) * 7919 + 1000) % len(points)]
@@ -83,7 +63,7 @@ def main():
             lambda: RBFInterpolator(source, target, kernel="thin_plate_spline", degree=1))
         add(f"scipy_spline_evaluate/{n}", lambda: spline(points))
         add(f"numpy_spline_evaluate/{n}", lambda: numpy_evaluate(points, source, weights, affine))
-    print(json.dumps({"benchmarks": results}, indent=1))
+    tell(results)
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 #include "evaluation/experiment.h"
 #include "evaluation/score_table.h"
 #include "geometry/file.h"
+#include "geometry/parallel.h"
 
 namespace mimik::cli {
 namespace {
@@ -32,24 +33,22 @@ int run(Arguments& arguments) {
     options.reference = !arguments.no_reference;
     options.whole_face = !arguments.no_whole_face;
     options.check();
-    const std::size_t steps = evaluation::experiment_steps(workspace, options);
     if (arguments.dry_run) {
-        const auto subjects = workspace.subjects().size();
-        const double sources = options.max_sources > 0 ? options.max_sources : static_cast<double>(subjects) - 1;
-        const double cases = static_cast<double>(steps) * sources * static_cast<double>(options.methods.size());
-        const double seconds = 0.03 * cases;
+        const auto estimate = evaluation::estimate_experiment(workspace, options);
+        const double seconds = estimate.core_seconds / geometry::thread_count();
         if (arguments.common.json)
             std::cout << nlohmann::json{{"schema", 1},
                                         {"dry_run", true},
-                                        {"transfers", cases},
-                                        {"seconds_on_one_core", seconds}}
+                                        {"transfers", estimate.transfers},
+                                        {"seconds", seconds}}
                              .dump(1)
                       << '\n';
         else
-            std::cout << fmt::format("about {:.0f} transfers, {:.0f} s on one core, less than 1 MB of tables\n", cases,
+            std::cout << fmt::format("{} transfers, about {:.0f} s and less than 1 MB of tables\n", estimate.transfers,
                                      seconds);
         return exit_done;
     }
+    const std::size_t steps = evaluation::experiment_steps(workspace, options);
     evaluation::ExperimentReport report;
     {
         Progress progress(arguments.common, "evaluate", steps);

@@ -49,12 +49,20 @@ struct ExperimentReport {
 ///
 /// Memory: faces are read when they are needed, one subject's at a time per thread (about 30 MB), beside 128 MB of true
 /// fields and 40 MB for the medians at most, whatever the number of subjects and expressions. Only the models of one
-/// expression grow with the subjects, by some 30 kB each, and so do the cases of the targets under way, by 100 bytes
+/// expression grow with the subjects, by some 50 kB each, and so do the cases of the targets under way, by 100 bytes
 /// per source and row. @throws InputError if fewer than 3 subjects show an expression.
 [[nodiscard]] ExperimentReport run_experiment(const preprocessing::Workspace& workspace,
                                               const modeling::FacsCatalogue& catalogue,
                                               const ExperimentOptions& options = {},
                                               const std::function<void(const std::string&)>& progress = {});
+
+/// What run_experiment would do: transfers (true fields included) and seconds on one core, from figures measured once.
+struct ExperimentEstimate {
+    std::size_t transfers = 0;
+    double core_seconds = 0;
+};
+[[nodiscard]] ExperimentEstimate estimate_experiment(const preprocessing::Workspace& workspace,
+                                                     const ExperimentOptions& options);
 
 /// How many steps `progress` will be told about.
 [[nodiscard]] std::size_t experiment_steps(const preprocessing::Workspace& workspace, const ExperimentOptions& options);

@@ -24,6 +24,7 @@ TrueFields::TrueFields(const PerformanceReader& reader, std::size_t bytes) : rea
 void TrueFields::add(const ScanId& expressive, Field field) {
     const std::size_t bytes = field.size() * sizeof(Vector);
     if (held_.size() == ids_.size() && bytes <= room_) {
+        field.shrink_to_fit();  // it was read without knowing its length
         held_.push_back(std::make_shared<const Field>(std::move(field)));
         room_ -= bytes;
     }

@@ -92,11 +92,13 @@ public:
     }
 
     std::vector<CaseResult> mean(const Method& method, std::size_t models) {
-        std::vector<const ExpressionModel*> others;
-        for (const auto s : sources_)
-            if (const auto& model = cast_.participants[s].models[models]) others.push_back(&*model);
         std::optional<ExpressionModel> mean;
-        return {put(method, "mean", [&] { return &mean.emplace(modeling::mean_expression(others)); })};
+        return {put(method, "mean", [&] {
+            modeling::ExpressionMean sum;
+            for (const auto s : sources_)
+                if (const auto& model = cast_.participants[s].models[models]) sum.add(*model);
+            return &mean.emplace(sum.mean());
+        })};
     }
 
     void true_fields(TargetCases& cases) const {

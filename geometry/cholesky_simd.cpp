@@ -7,7 +7,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/cholesky_simd.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
-#include <hwy/highway.h>
+
+#include "geometry/simd_doubles-inl.h"
 
 #ifndef MIMIK_CHOLESKY_SHAPE
 #define MIMIK_CHOLESKY_SHAPE
@@ -20,10 +21,6 @@ constexpr std::size_t block_columns = 6 * tile_columns;  // a panel of so many c
 HWY_BEFORE_NAMESPACE();
 namespace mimik::geometry::simd::HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::ScalableTag<double>;
-using V = hn::Vec<D>;
 
 /// Two vectors of rows by tile_columns columns: c -= left * right^T, `right` packed tile_columns numbers per term.
 HWY_INLINE void subtract_products(D d, double* c, std::size_t columns, const double* left, const double* right,

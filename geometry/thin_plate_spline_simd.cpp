@@ -7,15 +7,12 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/thin_plate_spline_simd.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
-#include <hwy/highway.h>
+
+#include "geometry/simd_doubles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mimik::geometry::simd::HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::ScalableTag<double>;
-using V = hn::Vec<D>;
 
 constexpr double ln_2 = 0x1.62e42fefa39efp-1;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -154,6 +153,10 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
             pairs.add(placed.anchors[k].name, anchors_on_source[k], anchors_on_source[k]);
     const auto expressive_from_neutral = pairs.fit(spline);
 
+    // Exactly so many: an experiment holds the models of all its sources.
+    const auto taken = std::count_if(placed.controls.begin(), placed.controls.end(),
+                                     [&](const ControlPoint& control) { return wanted(control.kind, options); });
+    model.points.reserve(static_cast<std::size_t>(taken) + (options.anchors ? placed.anchors.size() : 0));
     for (std::size_t k = 0; k < placed.controls.size(); ++k) {
         const auto& control = placed.controls[k];
         if (!wanted(control.kind, options)) continue;
@@ -177,51 +180,55 @@ ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::st
     return ExpressionGauge(catalogue, expression, average, options).measure(neutral, expressive, followed);
 }
 
-ExpressionModel mean_expression(std::span<const ExpressionModel> models) {
-    std::vector<const ExpressionModel*> each;
-    for (const auto& model : models) each.push_back(&model);
-    return mean_expression(each);
+void ExpressionMean::add(const ExpressionModel& model) {
+    if (!sum_) {
+        sum_ = model;
+        for (std::size_t k = 0; k < model.points.size(); ++k) place_[model.points[k].name] = k;
+        count_.assign(model.points.size(), 1.0);
+        return;
+    }
+    auto& sum = *sum_;
+    if (model.expression != sum.expression || model.frame != sum.frame)
+        throw InputError(fmt::format("{} and {} do not go together in a mean", sum.expression, model.expression));
+    for (const auto& mark : sum.landmarks.all())
+        if (const auto* other = model.landmarks.find(mark.name);
+            !other || (other->position_mm - mark.position_mm).norm() > 1e-9)
+            throw InputError(
+                fmt::format("{}: models of {} and {} stand on different faces; model them on the average face",
+                            sum.expression, sum.sources.front(), model.sources.front()));
+    sum.sources.insert(sum.sources.end(), model.sources.begin(), model.sources.end());
+    for (const auto& reason : model.left_out)
+        if (std::find(sum.left_out.begin(), sum.left_out.end(), reason) == sum.left_out.end())
+            sum.left_out.push_back(reason);
+    for (const auto& point : model.points) {
+        const auto found = place_.find(point.name);
+        if (found == place_.end()) {
+            place_[point.name] = sum.points.size();
+            sum.points.push_back(point);
+            count_.push_back(1.0);
+            continue;
+        }
+        auto& total = sum.points[found->second];
+        total.displacement_mm += point.displacement_mm;
+        total.projection_mm += point.projection_mm;
+        count_[found->second] += 1.0;
+    }
 }
 
-ExpressionModel mean_expression(std::span<const ExpressionModel* const> models) {
-    if (models.empty()) throw InputError("a mean expression needs at least one model");
-    ExpressionModel mean = *models.front();
-    std::map<std::string, std::size_t> place;
-    for (std::size_t k = 0; k < mean.points.size(); ++k) place[mean.points[k].name] = k;
-    std::vector<double> count(mean.points.size(), 1.0);
-    for (const auto* next : models.subspan(1)) {
-        const auto& model = *next;
-        if (model.expression != mean.expression || model.frame != mean.frame)
-            throw InputError(fmt::format("{} and {} do not go together in a mean", mean.expression, model.expression));
-        for (const auto& mark : mean.landmarks.all())
-            if (const auto* other = model.landmarks.find(mark.name);
-                !other || (other->position_mm - mark.position_mm).norm() > 1e-9)
-                throw InputError(
-                    fmt::format("{}: models of {} and {} stand on different faces; model them on the average face",
-                                mean.expression, mean.sources.front(), model.sources.front()));
-        mean.sources.insert(mean.sources.end(), model.sources.begin(), model.sources.end());
-        for (const auto& reason : model.left_out)
-            if (std::find(mean.left_out.begin(), mean.left_out.end(), reason) == mean.left_out.end())
-                mean.left_out.push_back(reason);
-        for (const auto& point : model.points) {
-            const auto found = place.find(point.name);
-            if (found == place.end()) {
-                place[point.name] = mean.points.size();
-                mean.points.push_back(point);
-                count.push_back(1.0);
-                continue;
-            }
-            auto& sum = mean.points[found->second];
-            sum.displacement_mm += point.displacement_mm;
-            sum.projection_mm += point.projection_mm;
-            count[found->second] += 1.0;
-        }
-    }
+ExpressionModel ExpressionMean::mean() const {
+    if (!sum_) throw InputError("a mean expression needs at least one model");
+    ExpressionModel mean = *sum_;
     for (std::size_t k = 0; k < mean.points.size(); ++k) {
-        mean.points[k].displacement_mm /= count[k];
-        mean.points[k].projection_mm /= count[k];
+        mean.points[k].displacement_mm /= count_[k];
+        mean.points[k].projection_mm /= count_[k];
     }
     return mean;
+}
+
+ExpressionModel mean_expression(std::span<const ExpressionModel> models) {
+    ExpressionMean mean;
+    for (const auto& model : models) mean.add(model);
+    return mean.mean();
 }
 
 void write_expression_model(const std::filesystem::path& file, const ExpressionModel& model) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -104,9 +105,19 @@ private:
                                                  const ModelOptions& options = {},
                                                  std::vector<FollowedPoint>* followed = nullptr);
 
-/// Source-independent AU (thesis 7.2): mean displacement of every point over models that stand on the average face. A
-/// point that a model left out is averaged over the rest. @throws InputError if the models do not go together.
-[[nodiscard]] ExpressionModel mean_expression(std::span<const ExpressionModel* const> models);
+/// Source-independent AU (thesis 7.2): mean displacement of every point over models that stand on the average face, one
+/// after another; holds their sum alone. A point that a model left out is averaged over the rest.
+class ExpressionMean {
+public:
+    /// @throws InputError if the model does not go with the earlier ones.
+    void add(const ExpressionModel& model);
+    [[nodiscard]] ExpressionModel mean() const;  ///< @throws InputError of no model
+
+private:
+    std::optional<ExpressionModel> sum_;
+    std::map<std::string, std::size_t> place_;  // of a point, by name
+    std::vector<double> count_;                 // per point
+};
 [[nodiscard]] ExpressionModel mean_expression(std::span<const ExpressionModel> models);
 
 /// JSON, schema 1: readable, 17 digits.

@@ -61,22 +61,33 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
         throw InputError(fmt::format("{}: no other subject shows expression '{}', so there is no mean",
                                      workspace.root().string(), expression));
     const ExpressionGauge gauge(catalogue, expression, workspace.average(), options);
-    std::vector<std::optional<ExpressionModel>> measured(subjects.size());
-    std::vector<std::string> faults(subjects.size());
-    geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) try {
-                measured[k] = gauge.measure(workspace.face(workspace.neutral(subjects[k])), workspace.face(ids[k]));
-            } catch (const std::exception& e) {
-                faults[k] = fmt::format("{}: {}", ids[k].name(), e.what());
+    ExpressionMean sum;
+    std::vector<std::string> faults;
+    bool any = false;
+    // In batches: only the sum stays, added in the order of the subjects.
+    constexpr std::size_t batch = 16;
+    for (std::size_t begin = 0; begin < subjects.size(); begin += batch) {
+        std::vector<std::optional<ExpressionModel>> measured(std::min(batch, subjects.size() - begin));
+        std::vector<std::string> fault(measured.size());
+        geometry::parallel_for(measured.size(), 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k) try {
+                    measured[k] = gauge.measure(workspace.face(workspace.neutral(subjects[begin + k])),
+                                                workspace.face(ids[begin + k]));
+                } catch (const std::exception& e) {
+                    fault[k] = fmt::format("{}: {}", ids[begin + k].name(), e.what());
+                }
+        });
+        for (std::size_t k = 0; k < measured.size(); ++k)
+            if (measured[k]) {
+                sum.add(*measured[k]);
+                any = true;
+            } else {
+                faults.push_back(fault[k]);
             }
-    });
-    std::vector<ExpressionModel> models;
-    for (auto& model : measured)
-        if (model) models.push_back(std::move(*model));
-    if (models.empty()) throw InputError(fmt::format("expression '{}': {}", expression, fmt::join(faults, "; ")));
-    auto mean = mean_expression(models);
-    for (const auto& fault : faults)
-        if (!fault.empty()) mean.left_out.push_back(fault);
+    }
+    if (!any) throw InputError(fmt::format("expression '{}': {}", expression, fmt::join(faults, "; ")));
+    auto mean = sum.mean();
+    mean.left_out.insert(mean.left_out.end(), faults.begin(), faults.end());
     return mean;
 }
 

@@ -151,6 +151,19 @@ TEST_F(Experiment, progress_is_told_as_often_as_was_said) {
     EXPECT_EQ(told, 3U);
 }
 
+TEST_F(Experiment, the_estimate_counts_the_cases_that_are_scored) {
+    auto options = smile_options();
+    for (const int max_sources : {0, 1}) {
+        options.max_sources = max_sources;
+        std::size_t cases = 0;
+        for (const auto& scored : run(*workspace_, options).rows) cases += scored.per_expression.at("12").cases;
+        EXPECT_EQ(estimate_experiment(*workspace_, options).transfers, cases);
+    }
+    const auto whole = estimate_experiment(*workspace_, smile_options());
+    EXPECT_EQ(whole.transfers, 3U * (3 * 2 + 1 + 2 + 1));  // three of one source, a mean, true field and its mean
+    EXPECT_GT(whole.core_seconds, estimate_experiment(*workspace_, options).core_seconds);
+}
+
 TEST_F(Experiment, what_cannot_be_scored_is_refused_by_name_before_any_work) {
     auto options = smile_options();
     options.expressions = {"12", "17"};
