@@ -7,6 +7,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/cholesky_simd.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
 
 #include "geometry/simd_doubles-inl.h"
 

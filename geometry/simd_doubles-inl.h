@@ -7,8 +7,6 @@
 #define MIMIK_SIMD_DOUBLES_INL
 #endif
 
-#include <hwy/highway.h>
-
 HWY_BEFORE_NAMESPACE();
 namespace mimik::geometry::simd::HWY_NAMESPACE {
 
