@@ -32,8 +32,9 @@ double tissue_depth_mm(const SheetVertex& p) {
     double depth = 5.5 + 7 * smooth_step(-12, -40, p.t);
     depth += 6 * patch(48, -58, 16, 24) + 2 * patch(70, -60, 16, 26) - 4.5 * patch(0, -64, 15, 7);
     depth *= 1 - 0.9 * patch(mouth_corner, stomion, 6, 5.5);  // the knot of muscles at the corner keeps its form
+    depth += 4 * patch(36, 11, 17, 9);                        // the pad of fat that the brow rides on
     depth *= 1 - 0.75 * (1 - smooth_step(12, 21, a)) * smooth_step(-60, -52, p.t) * smooth_step(2, -12, p.t);  // nose
-    depth *= 1 - plateau(p.v + 8, 9, 20) * hump(p.across_eye, 1.9);
+    depth *= 1 - plateau(p.v + 8, 7, 16) * hump(p.across_eye, 1.9);
     const double red = smooth_step(upper_lip + 2, upper_lip - 2, p.v) * smooth_step(lower_lip - 2, lower_lip + 2, p.v) *
                        (1 - smooth_step(mouth_corner - 5, mouth_corner + 2, a));
     return depth * (1 - red);
@@ -110,8 +111,12 @@ void MuscleModel::pull(const Muscle& muscle, double side, std::span<const Point>
                        std::vector<Vector>& moved) const {
     const Place in = {side * muscle.insertion.s, muscle.insertion.t}, from = {side * muscle.origin.s, muscle.origin.t};
     const auto inserted = sheet_.nearest(in.s, in.t), origin = sheet_.nearest(from.s, from.t);
-    // Along the person's own line. How far a larger face moves is a variance of its own (VarianceOptions).
-    const Vector mean_line = mean_[origin] - mean_[inserted], own_line = neutral_mm[origin] - neutral_mm[inserted];
+    // Along the person's own line, as it runs in the skin: a receding forehead does not pull a brow off the bone. How
+    // far a larger face moves is a variance of its own (VarianceOptions).
+    const Vector& normal = normals_[inserted];
+    const auto in_skin = [&](const Vector& line) { return Vector(line - line.dot(normal) * normal); };
+    const Vector mean_line = in_skin(mean_[origin] - mean_[inserted]),
+                 own_line = in_skin(neutral_mm[origin] - neutral_mm[inserted]);
     const Vector side_pull(side * muscle.pull_mm.x(), muscle.pull_mm.y(), muscle.pull_mm.z());
     Vector pull_mm = Eigen::Quaterniond::FromTwoVectors(mean_line, own_line) * side_pull;
     if (in.s == 0) pull_mm.x() = 0;
