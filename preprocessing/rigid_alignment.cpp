@@ -31,6 +31,7 @@ struct Pair {
     Point target_mm;
     Vector normal;
     double distance_mm;
+    double weight;
 };
 
 /// The `kept` closest pairs in the order they came; of equally close ones the first.
@@ -52,21 +53,30 @@ void trim_pairs(std::vector<Pair>& pairs, std::size_t kept) {
 }
 
 /// Evenly through the list, no more than `most`.
-std::vector<Point> thinned(std::span<const Point> points, std::size_t most) {
-    const std::size_t stride = std::max<std::size_t>(1, (points.size() + most - 1) / most);
-    std::vector<Point> some;
-    for (std::size_t k = 0; k < points.size(); k += stride) some.push_back(points[k]);
+template <typename Value>
+std::vector<Value> thinned(std::span<const Value> values, std::size_t most) {
+    const std::size_t stride = std::max<std::size_t>(1, (values.size() + most - 1) / most);
+    std::vector<Value> some;
+    for (std::size_t k = 0; k < values.size(); k += stride) some.push_back(values[k]);
     return some;
 }
 
 }  // namespace
 
 RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::SurfaceIndex& target,
-                             const Transform& start, const RigidAlignmentOptions& options) {
+                             const Transform& start, const RigidAlignmentOptions& options,
+                             std::span<const double> weights) {
     options.check();
+    if (!weights.empty() && weights.size() != source_mm.size())
+        throw InputError(
+            fmt::format("{} weights for {} points; give one per point, or none", weights.size(), source_mm.size()));
+    for (const double weight : weights)
+        if (!(weight >= 0) || !std::isfinite(weight))
+            throw InputError(fmt::format("a weight is {}; give 0 or more", weight));
     const auto vertices = target.vertices_mm();
     const auto triangles = target.triangles();
-    const auto points = thinned(source_mm, options.max_points);
+    const auto points = thinned<Point>(source_mm, options.max_points);
+    const auto weight_of = thinned<double>(weights, options.max_points);
     RigidAlignment result;
     result.target_from_source = start;
 
@@ -90,7 +100,8 @@ RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::S
             }
             const auto& t = triangles[hits[k].triangle];
             const Vector normal = (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]).normalized();
-            pairs.push_back({moved[k], hits[k].position_mm, normal, hits[k].distance_mm});
+            pairs.push_back(
+                {moved[k], hits[k].position_mm, normal, hits[k].distance_mm, weight_of.empty() ? 1.0 : weight_of[k]});
         }
         const auto kept = static_cast<std::size_t>(std::ceil(options.trim * static_cast<double>(pairs.size())));
         if (kept < 30)
@@ -100,10 +111,16 @@ RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::S
                             kept, points.size()));
         trim_pairs(pairs, kept);
 
-        // Small rotation w and shift t about the centroid c: minimise sum (n . (p + w x (p - c) + t - q))^2.
+        // Small rotation w and shift t about the centroid c: minimise the weighted
+        // sum of (n . (p + w x (p - c) + t - q))^2.
         Point centre = Point::Zero();
-        for (const auto& pair : pairs) centre += pair.moved_mm;
-        centre /= static_cast<double>(kept);
+        double total = 0;
+        for (const auto& pair : pairs) {
+            centre += pair.weight * pair.moved_mm;
+            total += pair.weight;
+        }
+        if (!(total > 0)) throw NumericalError("rigid alignment: every pair that is left has weight 0");
+        centre /= total;
         Eigen::Matrix<double, 6, 6> normal_matrix = Eigen::Matrix<double, 6, 6>::Zero();
         Eigen::Matrix<double, 6, 1> right_side = Eigen::Matrix<double, 6, 1>::Zero();
         double squared = 0;
@@ -111,11 +128,11 @@ RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::S
             Eigen::Matrix<double, 6, 1> row;
             row << (pair.moved_mm - centre).cross(pair.normal), pair.normal;
             const double residual = pair.normal.dot(pair.moved_mm - pair.target_mm);
-            normal_matrix += row * row.transpose();
-            right_side -= residual * row;
-            squared += residual * residual;
+            normal_matrix += pair.weight * row * row.transpose();
+            right_side -= pair.weight * residual * row;
+            squared += pair.weight * residual * residual;
         }
-        result.rms_mm = std::sqrt(squared / static_cast<double>(kept));
+        result.rms_mm = std::sqrt(squared / total);
         result.pairs_used = kept;
         const Eigen::Matrix<double, 6, 1> step = normal_matrix.ldlt().solve(right_side);
         if (!step.allFinite()) throw NumericalError("rigid alignment: the points determine no rotation");

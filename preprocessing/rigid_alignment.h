@@ -21,7 +21,7 @@ struct RigidAlignmentOptions {
 
 struct RigidAlignment {
     geometry::Transform target_from_source = geometry::Transform::Identity();
-    double rms_mm = 0.0;  ///< point to plane, over the pairs of the last step
+    double rms_mm = 0.0;  ///< point to plane, weighted, over the pairs of the last step
     std::size_t pairs_used = 0;
     std::size_t border_hits = 0;  ///< closest point on the target's border: left out
     int iterations = 0;
@@ -31,10 +31,12 @@ struct RigidAlignment {
 /// Trimmed point-to-plane ICP: rotation and translation that bring `source` points onto the target surface.
 /// (Chen and Medioni 1992 for the distance; Chetverikov et al. 2002 for the trimming.) The normals are those of the
 /// target's triangles. Give only points of a region that does not move with the expression.
-/// @throws InputError for bad options; NumericalError if fewer than 30 pairs remain.
+/// @param weights  one per source point, how much its squared distance counts; empty: all the same.
+/// @throws InputError for bad options or weights; NumericalError if fewer than 30 pairs remain.
 [[nodiscard]] RigidAlignment align_rigidly(std::span<const geometry::Point> source_mm,
                                            const geometry::SurfaceIndex& target,
                                            const geometry::Transform& start = geometry::Transform::Identity(),
-                                           const RigidAlignmentOptions& options = {});
+                                           const RigidAlignmentOptions& options = {},
+                                           std::span<const double> weights = {});
 
 }  // namespace mimik::preprocessing

@@ -36,7 +36,8 @@ struct PreprocessOptions {
 [[nodiscard]] Face preprocess_scan(const database::LoadedScan& loaded, const PreprocessOptions& options,
                                    CleaningReport* cleaning = nullptr, GriddingReport* gridding = nullptr);
 
-/// Fills face.neutral_from_scan by trimmed ICP of the neutral's stable vertices onto the scan.
+/// Fills face.neutral_from_scan by trimmed ICP of the neutral's stable vertices onto the scan. What is below the nose
+/// counts less than the rest: jaw and lips rest in another place in every scan, even where the expression is elsewhere.
 void align_to_neutral(Face& face, const Face& neutral, const std::vector<char>& stable,
                       const RigidAlignmentOptions& options = {});
 

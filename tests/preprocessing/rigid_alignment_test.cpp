@@ -72,6 +72,41 @@ TEST(RigidAlignment, trimming_ignores_a_region_that_moved) {
     EXPECT_GT((all.target_from_source * brow - brow).norm(), 2 * (trimmed.target_from_source * brow - brow).norm());
 }
 
+TEST(RigidAlignment, points_of_weight_nothing_do_not_pull_and_like_weights_change_nothing) {
+    const test::AnalyticFace neutral, smiling{1.0, 10.0};
+    const auto target = surface_of(smiling);
+    const geometry::SurfaceIndex index(target.vertices, target.triangles);
+    const auto upper = upper_face_points(neutral);
+    auto source = upper;
+    for (double y = -45; y <= -20; y += 2)
+        for (double x = -40; x <= 40; x += 2) source.push_back(neutral.point(x, y));
+    std::vector<double> weights(source.size(), 0.0);
+    std::fill_n(weights.begin(), upper.size(), 3.0);
+    const RigidAlignmentOptions all{.trim = 1.0, .max_points = 10'000};
+    const auto alone = align_rigidly(upper, index, Transform::Identity(), all);
+    const auto weighted = align_rigidly(source, index, Transform::Identity(), all, weights);
+    // The same sums but for the factor 3; points on an edge of the mesh go to either side of it by rounding, and steps
+    // end at 0.002 mm.
+    const Point brow = neutral.point(30, 50);
+    EXPECT_LT((weighted.target_from_source * brow - alone.target_from_source * brow).norm(), 0.002);
+    EXPECT_NEAR(weighted.rms_mm, alone.rms_mm, 1e-5);
+    const auto plain = align_rigidly(source, index, Transform::Identity(), all);
+    EXPECT_GT((plain.target_from_source * brow - alone.target_from_source * brow).norm(), 0.05);
+}
+
+TEST(RigidAlignment, weights_that_are_too_few_or_negative_are_refused) {
+    const auto target = surface_of({});
+    const geometry::SurfaceIndex index(target.vertices, target.triangles);
+    const auto source = upper_face_points({});
+    std::vector<double> weights(source.size() - 1, 1.0);
+    EXPECT_THROW((void)align_rigidly(source, index, Transform::Identity(), {}, weights), InputError);
+    weights.assign(source.size(), 1.0);
+    weights[7] = -1;
+    EXPECT_THROW((void)align_rigidly(source, index, Transform::Identity(), {}, weights), InputError);
+    weights.assign(source.size(), 0.0);
+    EXPECT_THROW((void)align_rigidly(source, index, Transform::Identity(), {}, weights), NumericalError);
+}
+
 TEST(RigidAlignment, a_scan_far_away_is_refused_with_counts) {
     const auto target = surface_of({});
     std::vector<Point> far(100, Point(0, 0, 5000));

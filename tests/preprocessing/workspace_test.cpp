@@ -10,6 +10,7 @@
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/parallel.h"
+#include "geometry/surface_index.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_database.h"
 
@@ -173,6 +174,52 @@ TEST_F(WorkspaceTest, a_bad_neutral_gives_its_place_to_the_next_and_a_subject_wi
     const Workspace workspace(workspace_);
     EXPECT_EQ(workspace.neutral("bs000").name(), "bs000_N_N_1");
     EXPECT_TRUE(workspace.expression("bs000", "12"));
+}
+
+TEST_F(WorkspaceTest, an_expressive_scan_without_a_chin_mark_is_kept_with_the_affine_map_of_its_neutral) {
+    std::vector<geometry::Landmark> seen;
+    const auto marks = geometry::transformed(
+        test::AnalyticFace{test::analytic_scales[1], test::analytic_smile_mm}.landmarks(), test::analytic_pose(3));
+    for (const auto& mark : marks.all())
+        if (mark.name != "chin") seen.push_back(mark);
+    database::write_lm3(database_ / "bs001" / "bs001_LFAU_12_0.lm3",
+                        database::to_bosphorus_labels(geometry::Landmarks(seen)));
+    const auto report = preprocess();
+    EXPECT_TRUE(report.failures.empty());
+    const Workspace workspace(workspace_);
+    const auto face = workspace.face(*workspace.expression("bs001", "12"));
+    const auto neutral = workspace.face(workspace.neutral("bs001"));
+    EXPECT_TRUE(face.average_from_scan_affine.matrix().isApprox(
+        (neutral.average_from_scan_affine * face.neutral_from_scan).matrix(), 1e-12));
+    EXPECT_THAT(face.remarks, testing::Contains(HasSubstr("'chin' is missing")));
+}
+
+TEST(AlignToNeutral, a_jaw_that_rests_elsewhere_turns_the_forehead_less_than_if_it_counted_in_full) {
+    // The whole face is said to hold still, but the jaw of the second scan is a little open: below y = -10 the skin
+    // goes back, 1 mm at the chin. Were all points alike, that would turn the head.
+    const test::AnalyticFace shape;
+    auto open = shape.scan(1.0);
+    for (auto& p : open.points_mm)
+        if (p.allFinite()) p.z() += 0.02 * std::min(0.0, p.y() + 10);
+    Face neutral, scan;
+    neutral.grid = grid_scan(shape.scan(1.0));
+    scan.grid = grid_scan(open);
+    neutral.landmarks = scan.landmarks = shape.landmarks();
+    const RigidAlignmentOptions all{.trim = 1.0};  // closed forms have no noise, so trimming would find the jaw
+    align_to_neutral(scan, neutral, std::vector<char>(neutral.grid.size(), 1), all);
+
+    std::vector<Point> everything;
+    for (std::size_t v = 0; v < neutral.grid.size(); ++v)
+        if (neutral.grid.measured(v)) everything.push_back(neutral.grid.vertices_mm[v]);
+    const geometry::SurfaceIndex surface(scan.grid.vertices_mm,
+                                         geometry::triangles(scan.grid, geometry::BridgedVertices::leave_out));
+    const auto plain = align_rigidly(everything, surface, geometry::Transform::Identity(), all);
+    const Point forehead = shape.point(0, 75);
+    const double error_mm = (scan.neutral_from_scan * forehead - forehead).norm();
+    const double plain_mm = (plain.target_from_source * forehead - forehead).norm();
+    EXPECT_GT(plain_mm, 0.1);  // else this test could not fail
+    // The jaw is far from the middle, so a fifth of its weight still has half its leverage; all alike would give 1.
+    EXPECT_LT(error_mm, 0.8 * plain_mm);
 }
 
 TEST_F(WorkspaceTest, one_and_two_threads_write_the_same_bytes) {
