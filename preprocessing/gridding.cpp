@@ -251,8 +251,9 @@ Lattice split_cells(const RangeScan& scan, const std::vector<std::uint8_t>& vali
             // Ties, the rule on an exact lattice, leave the first diagonal; 1e-9 is above their rounding.
             const double inside = mirrored ? in_circle(p[a], p[e], p[b], p[d]) : in_circle(p[a], p[b], p[e], p[d]);
             const bool first = inside <= 1e-9;
-            const bool both = first ? (add(a, b, e) & add(a, e, d)) : (add(a, b, d) & add(b, e, d));
-            if (both)
+            const bool lower = first ? add(a, b, e) : add(a, b, d);
+            const bool upper = first ? add(a, e, d) : add(b, e, d);
+            if (lower && upper)
                 for (const auto v : {a, b, d, e}) ++full_cells[v];
         }
     for (std::uint32_t v = 0; v < p.size(); ++v)

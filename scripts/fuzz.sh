@@ -9,17 +9,17 @@ seconds=${1:-${FUZZ_SECONDS:-60}}
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "fuzz.sh: SECONDS is '$seconds', not a whole number" >&2; exit 2; }
 shift || true
 launcher=$(command -v ccache || true)
-cmake --preset fuzz ${launcher:+-DCMAKE_C_COMPILER_LAUNCHER="$launcher" -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"} >/dev/null
-cmake --build --preset fuzz --target fuzzers
+cmake --preset asan-ubsan ${launcher:+-DCMAKE_C_COMPILER_LAUNCHER="$launcher" -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"} >/dev/null
+cmake --build --preset asan-ubsan --target fuzzers
 mkdir -p build/fuzz/found build/fuzz/log
 
 targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
-  for program in build/fuzz/bin/fuzz_*; do targets+=("${program##*/fuzz_}"); done
+  for program in build/asan-ubsan/bin/fuzz_*; do targets+=("${program##*/fuzz_}"); done
 fi
 
 run_one() {
-  local target=$1 seconds=$2 program=build/fuzz/bin/fuzz_$1 corpus=build/fuzz/corpus/$1 log=build/fuzz/log/$1
+  local target=$1 seconds=$2 program=build/asan-ubsan/bin/fuzz_$1 corpus=build/fuzz/corpus/$1 log=build/fuzz/log/$1
   [ -x "$program" ] || { echo "fuzz.sh: there is no target '$target'" >&2; return 2; }
   # TBB and other uninstrumented libraries keep memory until the end.
   export LSAN_OPTIONS=suppressions=$PWD/cmake/lsan.supp:print_suppressions=0
