@@ -117,7 +117,7 @@ void add_animate_command(CLI::App& app, int& exit_code) {
     auto* command =
         app.add_subcommand("animate", "Put expressions of one subject, or of the mean of all, on a neutral face");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
+    command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command
         ->add_option("--source", arguments->source,
                      "Subject whose expression is taken, or mean (of all but the target)")

@@ -18,6 +18,7 @@ double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock:
 }  // namespace
 
 void add_common_options(CLI::App& command, Common& common) {
+    command.set_version_flag("--version", MIMIK_VERSION);
     command.add_flag("--json", common.json, "Print the result as one JSON document");
     command.add_flag("--quiet", common.quiet, "No progress and no remarks");
     command.add_option("--threads", common.threads, "Threads to use; 0 = one per core")->check(CLI::Range(0, 1024));

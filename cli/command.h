@@ -15,7 +15,7 @@ struct Common {
     int threads = 0;     ///< 0 = one per core
 };
 
-/// Adds --json, --quiet, --threads to a subcommand. Call `run` from its callback: it applies the thread count.
+/// Adds --version, --json, --quiet, --threads to a command; the thread count is applied before its callback.
 void add_common_options(CLI::App& command, Common& common);
 
 /// Done, done with failures that were listed, bad input, no numerical answer.

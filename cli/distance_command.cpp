@@ -80,9 +80,9 @@ void add_distance_command(CLI::App& app, int& exit_code) {
     const auto request = std::make_shared<Request>();
     auto* command = app.add_subcommand("distance", "Distances between two surfaces, in both directions");
     command
-        ->add_option("test", request->test, "Mesh (PLY, OBJ, STL, VTP, PCD), or CSV of points with a header name,x,y,z")
+        ->add_option("TEST", request->test, "Mesh (PLY, OBJ, STL, VTP, PCD), or CSV of points with a header name,x,y,z")
         ->required();
-    command->add_option("reference", request->reference, "Mesh with faces")->required();
+    command->add_option("REFERENCE", request->reference, "Mesh with faces")->required();
     command->add_option("-o,--output", request->output,
                         "VTP or PLY of the test with distance_mm and on_border per vertex");
     add_common_options(*command, request->common);

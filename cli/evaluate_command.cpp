@@ -74,7 +74,7 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
         app.add_subcommand("evaluate", "Score methods on every ordered pair of subjects beside doing nothing");
     auto arguments = std::make_shared<Arguments>();
     auto& options = arguments->options;
-    command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
+    command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command->add_option("--method", arguments->methods, "thesis, default (one source), mean (of all other subjects)")
         ->delimiter(',')
         ->capture_default_str();

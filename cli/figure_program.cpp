@@ -98,7 +98,6 @@ void draw(const figures::FigureDescription& description, const std::string& outp
 
 int run_figure(int argc, char** argv) {
     CLI::App app{"Draws faces side by side, without needing a display.", "mimik-figure"};
-    app.set_version_flag("--version", MIMIK_VERSION);
     Common common;
     figures::FigureDescription description;
     figures::Figure& page = description.page;

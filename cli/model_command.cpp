@@ -70,7 +70,7 @@ void add_model_command(CLI::App& app, int& exit_code) {
         app.add_subcommand("model", "Measure expressions as control points and displacements, one file each");
     auto arguments = std::make_shared<Arguments>();
     arguments->expressions = {"1", "2", "4", "12", "14", "15", "17", "20"};
-    command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
+    command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command->add_option("--source", arguments->sources, "Subjects, or mean (of all)")
         ->delimiter(',')
         ->capture_default_str();

@@ -134,7 +134,7 @@ void add_panels_command(CLI::App& app, int& exit_code) {
         "panels", "Figures of an expression: neutral, animated and real faces, and their distance in colour");
     auto arguments = std::make_shared<Arguments>();
     auto& request = arguments->request;
-    command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
+    command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command
         ->add_option("--source", request.source, "Subject whose expression is taken, or mean (of all but the target)")
         ->capture_default_str();

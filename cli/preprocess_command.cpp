@@ -117,8 +117,7 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
     auto* command = app.add_subcommand("preprocess", "Clean, resample and normalise the scans of a database");
     auto arguments = std::make_shared<Arguments>();
     auto& options = arguments->options;
-    command->add_option("database", arguments->database, "Folder in Bosphorus layout, or with a manifest.csv")
-        ->required();
+    command->add_option("DB", arguments->database, "Folder in Bosphorus layout, or with a manifest.csv")->required();
     command
         ->add_option("-o,--output", arguments->output, "Workspace folder; a second run goes on where the first ended")
         ->required();

@@ -44,7 +44,7 @@ void add_regions_command(CLI::App& app, int& exit_code) {
     auto* command =
         app.add_subcommand("regions", "Write the regions of the average face as a label file that can be edited");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("workspace", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
+    command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command->add_option("-o,--output", arguments->output,
                         "CSV row,col,region (default: average/regions.csv in the workspace)");
     add_common_options(*command, arguments->common);

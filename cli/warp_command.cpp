@@ -51,7 +51,7 @@ void add_warp_command(CLI::App& app, int& exit_code) {
     command->add_option("--from", arguments->from, "Landmarks on the input: CSV with name,x,y,z")->required();
     command->add_option("--to", arguments->to, "Where they go: the same names")->required();
     command->add_option("--kernel", arguments->options.kernel, "r, or r2logr (r^2 ln r^2)")
-        ->transform(CLI::CheckedTransformer(kernel_names))
+        ->transform(CLI::CheckedTransformer(kernel_names).description("{r,r2logr}"))
         ->default_str("r");
     command
         ->add_option("--smoothing", arguments->options.smoothing,
