@@ -3,19 +3,29 @@
 # itself: a database of 12 subjects, preprocessing, models of the thesis's nine Action Units, animated faces, scores and figures.
 # With --face-model (a clone of ICT-FaceKit) the same on faces from scanned people.
 set -euo pipefail
+stand=$PWD  # where the user stands: relative folders start here
 cd "$(dirname "$0")/.."
 
-out=out/reproduce
+out=$PWD/out/reproduce
 seed=1
 model=()
+usage="give --face-model DIR, --out DIR or --seed N"
 while [ $# -gt 0 ]; do
+  [ $# -gt 1 ] || { echo "reproduce.sh: nothing stands after '$1'; $usage" >&2; exit 2; }
   case "$1" in
-    --face-model) model=(--face-model "$2"); shift 2 ;;
-    --out) out=$2; shift 2 ;;
-    --seed) seed=$2; shift 2 ;;
-    *) echo "reproduce.sh: unknown option $1; give --face-model DIR, --out DIR or --seed N" >&2; exit 2 ;;
+    --face-model) model=(--face-model "$(cd "$stand" && realpath -ms "$2")") ;;
+    --out) out=$(cd "$stand" && realpath -ms "$2") ;;
+    --seed) seed=$2 ;;
+    *) echo "reproduce.sh: there is no option '$1'; $usage" >&2; exit 2 ;;
   esac
+  shift 2
 done
+# Only what an earlier run made is made anew; anything else in the folder is not ours to touch.
+mark=$out/.mimik-reproduce
+if [ -d "$out" ] && [ -n "$(ls -A "$out")" ] && [ ! -e "$mark" ]; then
+  echo "reproduce.sh: $out is not empty and was not made by reproduce.sh; give another --out" >&2
+  exit 2
+fi
 
 scripts/setup.sh
 launcher=$(command -v ccache || true)
@@ -24,8 +34,10 @@ cmake --build build/reproduce --target mimik mimik-figure
 mimik=$PWD/build/reproduce/bin/mimik
 
 step() { printf '\n[%s/%s] %s\n' "$1" 6 "$2"; }
-rm -rf "$out"
-mkdir -p "$out/animated" "$out/figures"
+mkdir -p "$out"
+touch "$mark"
+rm -rf "$out"/{database,workspace,animated,figures,scores}
+mkdir "$out/animated" "$out/figures"
 begin=$SECONDS
 
 step 1 "Make a database of 12 subjects (seed $seed)"
