@@ -10,6 +10,7 @@
 #include "geometry/file.h"
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
+#include "modeling/face_regions.h"
 #include "preprocessing/control_pairs.h"
 #include "preprocessing/json_values.h"
 
@@ -88,6 +89,16 @@ bool wanted(ControlKind kind, const ModelOptions& options) {
     return true;
 }
 
+/// Whether a unit of one half of the face has a zone centred in the other: a cheek raiser, upper face by FACS, moves
+/// the cheek below the border.
+bool crosses_border(const SidedUnit& sided, const Landmarks& landmarks) {
+    const RegionBorder border(landmarks);
+    return std::any_of(sided.unit->zone.begin(), sided.unit->zone.end(), [&](const auto& ellipse) {
+        const double above_mm = border.above_mm(place(ellipse.centre, landmarks, database::Side::left));
+        return sided.unit->lower_face ? above_mm > 0 : above_mm < 0;
+    });
+}
+
 }  // namespace
 
 ExpressionGauge::ExpressionGauge(const FacsCatalogue& catalogue, const std::string& expression,
@@ -98,6 +109,10 @@ ExpressionGauge::ExpressionGauge(const FacsCatalogue& catalogue, const std::stri
     begun_.expression = expression_name(catalogue, expression);
     begun_.moves_upper_face = begun_.moves_lower_face = false;
     for (const auto& sided : units) (sided.unit->lower_face ? begun_.moves_lower_face : begun_.moves_upper_face) = true;
+    // Where anchors hold the rest of the face, nothing is cut off at the border that the unit does move.
+    if (options_.anchors)
+        for (const auto& sided : units)
+            if (crosses_border(sided, average.landmarks)) begun_.moves_upper_face = begun_.moves_lower_face = true;
     begun_.frame = options_.frame;
     if (!options_.place_on_average) return;
     const geometry::SurfaceIndex surface(average.grid.vertices_mm, geometry::triangles(average.grid));

@@ -6,21 +6,23 @@ namespace mimik::modeling {
 
 using geometry::Point;
 
-std::vector<double> region_weights(const geometry::QuadGrid& grid, const geometry::Landmarks& landmarks,
-                                   bool lower_face, double border_mm) {
+RegionBorder::RegionBorder(const geometry::Landmarks& landmarks) {
     const Point &left = landmarks.position_mm("eye_outer_left"), &right = landmarks.position_mm("eye_outer_right");
     const Point inner = 0.5 * (landmarks.position_mm("eye_inner_left") + landmarks.position_mm("eye_inner_right"));
     const Point eyes = 0.5 * (0.5 * (left + right) + inner);
-    const Point& nose = landmarks.position_mm("nose_tip");
-    // "Up" on this face, whatever its pose: across the eye line, away from the chin.
     const geometry::Vector across = (left - right).normalized();
-    geometry::Vector up = eyes - landmarks.position_mm("chin");
-    up = (up - across * across.dot(up)).normalized();
-    const double border = up.dot(eyes) + 0.25 * up.dot(nose - eyes);
+    up_ = eyes - landmarks.position_mm("chin");
+    up_ = (up_ - across * across.dot(up_)).normalized();
+    border_ = up_.dot(eyes) + 0.25 * up_.dot(landmarks.position_mm("nose_tip") - eyes);
+}
+
+std::vector<double> region_weights(const geometry::QuadGrid& grid, const geometry::Landmarks& landmarks,
+                                   bool lower_face, double border_mm) {
+    const RegionBorder border(landmarks);
     std::vector<double> weights(grid.size(), 0.0);
     for (std::size_t v = 0; v < grid.size(); ++v) {
         if (!grid.inside(v)) continue;
-        const double above = (up.dot(grid.vertices_mm[v]) - border) * (lower_face ? -1.0 : 1.0);
+        const double above = border.above_mm(grid.vertices_mm[v]) * (lower_face ? -1.0 : 1.0);
         if (border_mm <= 0) {
             weights[v] = lower_face ? above > 0 : above >= 0;
             continue;

@@ -90,6 +90,22 @@ TEST_F(ExpressionModelTest, anchors_hold_still_exactly_and_come_only_when_asked_
     for (const auto& control : measure(*source_, options).points) EXPECT_NE(control.kind, ControlKind::anchor);
 }
 
+TEST_F(ExpressionModelTest, a_unit_whose_zone_lies_across_the_border_moves_both_halves_if_anchors_hold_the_rest) {
+    const auto halves = [&](const std::string& code, const ModelOptions& options = {}) {
+        const auto model = measure(*source_, options, code);
+        return std::pair(model.moves_upper_face, model.moves_lower_face);
+    };
+    // Cheek raiser and lid tightener are upper face by FACS and move the cheek; the nose wrinkler, lower face, moves
+    // the brows.
+    for (const auto* code : {"6", "7", "9"}) EXPECT_EQ(halves(code), std::pair(true, true)) << code;
+    for (const auto* code : {"1", "2", "4", "5", "43"}) EXPECT_EQ(halves(code), std::pair(true, false)) << code;
+    for (const auto* code : {"10", "12", "14", "15", "17", "20", "26"})
+        EXPECT_EQ(halves(code), std::pair(false, true)) << code;
+    // As printed: one half, with a hard cut.
+    EXPECT_EQ(halves("6", ModelOptions::thesis()), std::pair(true, false));
+    EXPECT_EQ(halves("9", ModelOptions::thesis()), std::pair(false, true));
+}
+
 TEST_F(ExpressionModelTest, each_kind_of_point_can_be_left_out_and_the_thesis_leaves_out_coverage_and_anchors) {
     const auto kinds = [](const ExpressionModel& model) {
         std::map<ControlKind, std::size_t> count;
