@@ -1,7 +1,10 @@
 #include "geometry/parallel.h"
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 #include <memory>
+#include <mutex>
 #include <thread>
 
 #include <tbb/global_control.h>
@@ -34,7 +37,23 @@ void parallel_for(std::size_t count, std::size_t grain, const std::function<void
     if (pieces == 1) return run(0);
     // Isolated: a thread that waits for the last piece must not start a piece of a loop around this one meanwhile, or
     // it would hold the memory of two, three, ... of them.
-    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, pieces, run); });
+    std::atomic<std::size_t> lowest_failed = pieces;
+    std::exception_ptr failure;
+    std::mutex mutex;
+    const auto run_unless_failed = [&](std::size_t piece) {
+        // Pieces below a failed one still run: one of them may fail, too, and then it is the one to report.
+        if (piece > lowest_failed) return;
+        try {
+            run(piece);
+        } catch (...) {
+            const std::scoped_lock lock(mutex);
+            if (piece > lowest_failed) return;
+            lowest_failed = piece;
+            failure = std::current_exception();
+        }
+    };
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, pieces, run_unless_failed); });
+    if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace mimik::geometry

@@ -11,7 +11,8 @@ void set_thread_count(int threads);
 
 /// Calls body(begin, end) on disjoint pieces that cover [0, count). Pieces are at most `grain` long and depend on count
 /// and grain alone, never on the number of threads, so results written by index are the same on any machine load.
-/// The first exception of a body is rethrown here.
+/// If bodies throw, the exception of the lowest piece is rethrown, whatever the number of threads; pieces above it may
+/// not have run.
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
 
 }  // namespace mimik::geometry
