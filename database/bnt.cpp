@@ -24,6 +24,7 @@ static_assert(std::endian::native == std::endian::little, "a .bnt is read and wr
 
 constexpr std::size_t fixed_header_bytes = 14;    // rows, cols, background, length of the texture name
 constexpr std::uintmax_t max_cells = 50'000'000;  // 2 GB; a Bosphorus scan has about 50,000
+constexpr double farthest_mm = 1e6;               // scanners of faces look a few metres far
 constexpr std::size_t longest_header_bytes = fixed_header_bytes + 65535 + 4;
 
 template <typename T>
@@ -125,6 +126,16 @@ void check_texture_name(const std::string& texture, const std::string& what) {
     }
 }
 
+[[noreturn]] void refuse_far_cell(const Bnt& bnt, std::size_t cell, const geometry::Point& point_mm,
+                                  const std::string& name) {
+    Eigen::Index axis = 0;
+    const double far_mm = point_mm.cwiseAbs().maxCoeff(&axis);
+    throw InputError(
+        fmt::format("{}: {} of row {}, column {} is {:g} mm from the origin, {:g} mm is the most; the file is damaged, "
+                    "or its unit or background marker is another",
+                    name, "xyz"[axis], cell / bnt.cols, cell % bnt.cols, far_mm, farthest_mm));
+}
+
 }  // namespace
 
 Bnt decode_bnt(std::span<const std::uint8_t> bytes, const std::string& name) {
@@ -211,7 +222,7 @@ void write_bnt(const std::filesystem::path& file, const Bnt& bnt) {
     });
 }
 
-geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name) {
+geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name, geometry::LengthUnit unit) {
     check_texture_name(bnt.texture_file, name);
     geometry::RangeScan scan;
     scan.rows = bnt.rows;
@@ -224,9 +235,11 @@ geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name) {
     // A measurement is finite and in no coordinate the background marker (files with partly marked points exist).
     const auto measured = [&](double value) { return std::isfinite(value) && value != bnt.background; };
     bool any_texture = false;
+    const double scale = geometry::millimetres_per(unit);
     for (std::size_t i = 0; i < cells; ++i) {
         if (measured(bnt.x[i]) && measured(bnt.y[i]) && measured(bnt.z[i])) {
-            scan.points_mm[i] = {bnt.x[i], bnt.y[i], bnt.z[i]};
+            scan.points_mm[i] = scale * geometry::Point(bnt.x[i], bnt.y[i], bnt.z[i]);
+            if (scan.points_mm[i].cwiseAbs().maxCoeff() > farthest_mm) refuse_far_cell(bnt, i, scan.points_mm[i], name);
             const bool textured = measured(bnt.u[i]) && measured(bnt.v[i]);
             scan.texture_coordinates[i] = textured ? geometry::TextureCoordinate(bnt.u[i], 1.0 - bnt.v[i])
                                                    : geometry::TextureCoordinate(nothing, nothing);
@@ -238,6 +251,10 @@ geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name) {
     }
     if (!any_texture) scan.texture_coordinates.clear();
     return scan;
+}
+
+geometry::RangeScan read_bnt_scan(const std::filesystem::path& file, geometry::LengthUnit unit) {
+    return to_range_scan(read_bnt(file), file.string(), unit);
 }
 
 Bnt to_bnt(const geometry::RangeScan& scan, double background) {

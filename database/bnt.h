@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh_io.h"
 #include "geometry/range_scan.h"
 
 namespace mimik::database {
@@ -26,8 +27,13 @@ struct Bnt {
 void write_bnt(const std::filesystem::path& file, const Bnt& bnt);
 
 /// Invalid cells (any of x, y, z is the background or not finite) become NaN; texture v is turned to count from the
-/// bottom; a texture name with a folder in it is an InputError, which begins with `name`.
-[[nodiscard]] geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name = "scan");
+/// bottom. @throws InputError, beginning with `name`, for a texture name with a folder in it and for a coordinate
+/// beyond 1e6 mm, which no scanner measures.
+[[nodiscard]] geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name,
+                                                geometry::LengthUnit unit = geometry::LengthUnit::millimetre);
+/// Both in one.
+[[nodiscard]] geometry::RangeScan read_bnt_scan(const std::filesystem::path& file,
+                                                geometry::LengthUnit unit = geometry::LengthUnit::millimetre);
 /// The scan must be organised. NaN points become background cells.
 [[nodiscard]] Bnt to_bnt(const geometry::RangeScan& scan, double background = -1e9);
 

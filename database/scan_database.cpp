@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "database/bnt.h"
+#include "database/hidden_subjects.h"
 #include "database/manifest.h"
 #include "geometry/csv.h"
 #include "geometry/errors.h"
@@ -106,48 +107,6 @@ fs::path first_file(const fs::path& root, std::initializer_list<const char*> nam
     return {};
 }
 
-/// unallowed_subjects.txt: numbers or names, separated by anything that is neither letter nor digit; '#' begins a
-/// comment.
-std::vector<std::string> parse_hidden_subjects(const std::string& text, const std::string& name,
-                                               const ScanDatabase& database, std::vector<std::string>& remarks) {
-    std::vector<std::string> hidden;
-    std::string word;
-    bool comment = false;
-    const auto finish_word = [&] {
-        if (word.empty()) return;
-        std::string subject = std::exchange(word, {});
-        const bool number = subject.size() <= 6 &&
-                            std::all_of(subject.begin(), subject.end(), [](char c) { return c >= '0' && c <= '9'; });
-        if (number) subject = fmt::format("bs{:03}", std::stoi(subject));
-        if (std::any_of(hidden.begin(), hidden.end(), [&](const auto& h) { return same(h, subject); })) return;
-        // Words of a sentence are no subjects; a subject whose scans are not here yet is hidden all the same.
-        const bool known = std::any_of(database.scans.begin(), database.scans.end(),
-                                       [&](const ScanEntry& e) { return same(e.id.subject, subject); });
-        const bool looks_like_one =
-            lower_case(subject).starts_with("bs") && subject.size() > 2 &&
-            std::all_of(subject.begin() + 2, subject.end(), [](char c) { return c >= '0' && c <= '9'; });
-        if (known || looks_like_one)
-            hidden.push_back(std::move(subject));
-        else if (remarks.size() < 50)
-            remarks.push_back(
-                fmt::format("{}: '{}' is no subject of this database and is not hidden", name, subject.substr(0, 40)));
-    };
-    for (const char c : text) {
-        if (c == '\n') comment = false;
-        const bool part =
-            !comment && ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-');
-        if (part) {
-            word += c;
-        } else {
-            finish_word();
-            comment = comment || c == '#';
-        }
-    }
-    finish_word();
-    std::sort(hidden.begin(), hidden.end());
-    return hidden;
-}
-
 void read_lists(ScanDatabase& database) {
     if (const auto file = first_file(database.root, {"facscodes.lst", "facscodes/facscodes.lst"}); !file.empty()) {
         auto codes = parse_facs_codes(geometry::read_text(file, max_list_bytes), file.string());
@@ -173,9 +132,15 @@ void read_lists(ScanDatabase& database) {
             if (const auto it = sexes.find(lower_case(entry.id.subject)); it != sexes.end() && entry.sex.empty())
                 entry.sex = it->second;
     }
-    if (const auto file = first_file(database.root, {"unallowed_subjects.txt"}); !file.empty())
-        database.hidden_subjects =
-            parse_hidden_subjects(geometry::read_text(file, max_list_bytes), file.string(), database, database.remarks);
+    const auto subjects = database.subjects();
+    auto& hidden = database.hidden_subjects;
+    for (const auto& file : hidden_subjects_files(database.root)) {
+        auto list = parse_hidden_subjects(geometry::read_text(file, max_list_bytes), file.string(), subjects);
+        std::move(list.subjects.begin(), list.subjects.end(), std::back_inserter(hidden));
+        std::move(list.remarks.begin(), list.remarks.end(), std::back_inserter(database.remarks));
+    }
+    std::sort(hidden.begin(), hidden.end());
+    hidden.erase(std::unique(hidden.begin(), hidden.end()), hidden.end());
 }
 
 /// Landmarks under our names; nothing if there are none or they cannot be read (load() says why).
@@ -217,12 +182,8 @@ void decide_code_sides(ScanDatabase& database) {
 }
 
 geometry::RangeScan read_scan(const ScanEntry& entry) {
-    if (!same(entry.scan_file.extension().string(), ".bnt"))
-        return geometry::read_range_scan(entry.scan_file, entry.unit);
-    auto scan = to_range_scan(read_bnt(entry.scan_file), entry.scan_file.string());
-    if (const double scale = geometry::millimetres_per(entry.unit); scale != 1)
-        for (auto& p : scan.points_mm) p *= scale;
-    return scan;
+    return same(entry.scan_file.extension().string(), ".bnt") ? read_bnt_scan(entry.scan_file, entry.unit)
+                                                              : geometry::read_range_scan(entry.scan_file, entry.unit);
 }
 
 geometry::Landmarks read_named_landmarks(const ScanEntry& entry, const geometry::RangeScan& scan, SideReport& sides) {
@@ -315,9 +276,7 @@ std::vector<const ScanEntry*> ScanDatabase::neutrals(const std::string& subject)
     return result;
 }
 
-bool ScanDatabase::hidden(const std::string& subject) const {
-    return std::any_of(hidden_subjects.begin(), hidden_subjects.end(), [&](const auto& h) { return same(h, subject); });
-}
+bool ScanDatabase::hidden(const std::string& subject) const { return is_hidden(hidden_subjects, subject); }
 
 ScanDatabase open_database(const std::filesystem::path& root) {
     std::error_code error;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "database/bnt.h"
+#include "database/hidden_subjects.h"
 #include "geometry/csv.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
@@ -194,7 +195,7 @@ geometry::Mesh lattice_mesh(const geometry::RangeScan& scan) {
 
 geometry::MeshFile read_face(const fs::path& file, geometry::LengthUnit unit) {
     if (!geometry::equal_ignoring_case(file.extension().string(), ".bnt")) return geometry::read_mesh_file(file, unit);
-    const auto scan = database::to_range_scan(database::read_bnt(file));
+    const auto scan = database::read_bnt_scan(file, unit);
     return {.mesh = lattice_mesh(scan), .texture_file = scan.texture_file};
 }
 
@@ -243,6 +244,8 @@ Panel load_panel(const PanelDescription& description) {
     panel.centre_mm = description.centre_mm;
     if (description.mesh.empty()) return panel;
 
+    database::refuse_hidden_file(description.mesh);
+    if (!description.texture.empty()) database::refuse_hidden_file(description.texture);
     auto face = read_face(description.mesh, description.unit);
     panel.mesh = std::move(face.mesh);
     const double scale = geometry::millimetres_per(description.unit);

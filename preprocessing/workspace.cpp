@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "database/hidden_subjects.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/parallel.h"
@@ -490,7 +491,7 @@ std::vector<std::string> Workspace::subjects() const {
 }
 
 bool Workspace::hidden(const std::string& subject) const {
-    return std::find(hidden_subjects_.begin(), hidden_subjects_.end(), subject) != hidden_subjects_.end();
+    return database::is_hidden(hidden_subjects_, subject);
 }
 
 void Workspace::refuse_hidden(const std::string& subject) const {

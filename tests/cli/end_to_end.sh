@@ -108,7 +108,7 @@ expect_code 1 "bs002_LFAU_12_0" "$mimik" preprocess broken -o broken_work --quie
 [ -e broken_work/faces/bs002/bs002_UFAU_4_0.json ]
 claim "one cut scan is reported with 1, and the rest is done"
 
-echo bs001 >broken/unallowed_subjects.txt
+echo BS001 >broken/Unallowed_Subjects.txt  # neither case is that of the scans
 code=0
 "$mimik" preprocess broken -o broken_work --quiet >/dev/null 2>&1 || code=$?
 [ "$code" -eq 1 ]

@@ -1,8 +1,10 @@
 #include "database/bnt.h"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -145,20 +147,20 @@ TEST(BntScan, cells_with_the_marker_or_no_number_in_any_coordinate_are_not_measu
     Bnt bnt = small_scan();
     bnt.y[2] = bnt.background;
     bnt.x[3] = std::numeric_limits<double>::infinity();
-    const auto scan = to_range_scan(bnt);
+    const auto scan = to_range_scan(bnt, "made.bnt");
     for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(scan.valid(i), i == 0 || i > 3) << i;
     EXPECT_EQ(scan.points_mm[4], geometry::Point(0.1, 1.1, 1));
 }
 
 TEST(BntScan, texture_v_counts_from_the_bottom) {
-    const auto scan = to_range_scan(small_scan());
+    const auto scan = to_range_scan(small_scan(), "made.bnt");
     EXPECT_EQ(scan.texture_coordinates[0], geometry::TextureCoordinate(0, 0));   // lowest row of the grid
     EXPECT_EQ(scan.texture_coordinates[11], geometry::TextureCoordinate(1, 1));  // highest row
 }
 
 TEST(BntScan, converting_there_and_back_keeps_positions_and_the_unmeasured_cells) {
     const Bnt bnt = small_scan();
-    const Bnt again = to_bnt(to_range_scan(bnt));
+    const Bnt again = to_bnt(to_range_scan(bnt, "made.bnt"));
     EXPECT_EQ(again.x, bnt.x);
     EXPECT_EQ(again.z, bnt.z);
     EXPECT_EQ(again.u, bnt.u);
@@ -170,12 +172,32 @@ TEST(BntScan, a_texture_name_with_a_folder_in_it_is_refused) {
     for (const char* name : {"../../etc/secret.png", "/abs.png", "a\\b.png", ".."}) {
         Bnt bnt = small_scan();
         bnt.texture_file = name;
-        EXPECT_THAT(message_of<InputError>([&] { (void)to_range_scan(bnt); }), HasSubstr(name));
+        EXPECT_THAT(message_of<InputError>([&] { (void)to_range_scan(bnt, "made.bnt"); }), HasSubstr(name));
     }
 }
 
+TEST(BntScan, a_coordinate_further_than_a_kilometre_is_refused_with_its_cell_and_value) {
+    for (const double z : {1e300, -1.01e6}) {
+        Bnt bnt = small_scan();
+        bnt.z[6] = z;  // 4 columns
+        EXPECT_THAT(message_of<InputError>([&] { (void)to_range_scan(bnt, "made.bnt"); }),
+                    HasSubstr(fmt::format("made.bnt: z of row 1, column 2 is {:g} mm", std::abs(z))));
+    }
+    Bnt far = small_scan();
+    far.x[6] = 1e6;
+    EXPECT_TRUE(to_range_scan(far, "made.bnt").valid(6));
+    EXPECT_THAT(message_of<InputError>([&] { (void)to_range_scan(far, "made.bnt", geometry::LengthUnit::centimetre); }),
+                HasSubstr("x of row 1, column 2 is 1e+07 mm"));
+}
+
+TEST(BntScan, a_unit_scales_every_point) {
+    const auto scan = to_range_scan(small_scan(), "made.bnt", geometry::LengthUnit::centimetre);
+    const auto same = to_range_scan(small_scan(), "made.bnt");
+    for (const std::size_t i : {0, 2, 11}) EXPECT_EQ(scan.points_mm[i], 10 * same.points_mm[i]) << i;
+}
+
 TEST(BntScan, a_point_that_equals_the_marker_is_refused_rather_than_lost) {
-    auto scan = to_range_scan(small_scan());
+    auto scan = to_range_scan(small_scan(), "made.bnt");
     scan.points_mm[5].z() = -1e9;
     EXPECT_THAT(message_of<InputError>([&] { (void)to_bnt(scan); }), HasSubstr("point 5"));
 }

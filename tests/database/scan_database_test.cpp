@@ -69,14 +69,16 @@ TEST(ScanDatabase, a_missing_or_empty_folder_is_refused_by_name) {
 TEST(ScanDatabase, unallowed_subjects_are_hidden_by_number_or_name) {
     const TemporaryFolder folder;
     for (const char* name : {"bs000_N_N_0", "bs001_N_N_0", "bs002_N_N_0"}) write_scan(folder.path(), name, make_face());
-    geometry::write_atomically(folder.path() / "unallowed_subjects.txt",
-                               "# not to be shown: bs002\r\nBS000\r\n1, bs077\nnobody\n");
+    geometry::write_atomically(folder.path() / "Unallowed_Subjects.txt",
+                               "# not to be shown: bs002\r\nBS000\r\nbs1, bs077\nnobody\n");
     const auto database = open_database(folder.path());
-    EXPECT_TRUE(database.hidden("bs000"));
-    EXPECT_TRUE(database.hidden("bs001"));
+    EXPECT_THAT(database.hidden_subjects, ElementsAre("bs000", "bs001", "bs077"));
+    EXPECT_TRUE(database.hidden("BS000"));
     EXPECT_FALSE(database.hidden("bs002"));
-    EXPECT_TRUE(database.hidden("bs077"));  // also one whose scans are not here
     EXPECT_THAT(database.remarks, Contains(HasSubstr("'nobody' is no subject")));
+    geometry::write_atomically(folder.path() / "Unallowed_Subjects.txt", "nobody\n");
+    EXPECT_THAT(message_of<InputError>([&] { (void)open_database(folder.path()); }),
+                HasSubstr("Unallowed_Subjects.txt: line 1: 'nobody' is no subject"));
 }
 
 TEST(ScanDatabase, facs_codes_give_intensities_with_the_stronger_side) {

@@ -266,7 +266,7 @@ TEST_F(ComparisonPanels, a_scan_that_was_aligned_beside_its_neutral_is_named) {
 
 TEST_F(ComparisonPanels, subjects_who_must_not_be_shown_are_refused_and_stand_in_no_file) {
     const database::TemporaryFolder folder;
-    geometry::write_atomically(folder.path() / "db" / "unallowed_subjects.txt", "bs000\n");
+    geometry::write_atomically(folder.path() / "db" / "unallowed_subjects.txt", "BS000\n");
     const auto workspace = test::analytic_workspace(folder.path());
     for (const auto& request : {smile("bs000", "bs001"), smile("bs001", "bs000")})
         EXPECT_THAT(message_of<InputError>(

@@ -167,6 +167,35 @@ TEST_F(LoadFigure, joins_the_lattice_of_a_scan_but_not_across_holes_and_jumps) {
     EXPECT_NO_THROW(figure.check());
 }
 
+TEST_F(LoadFigure, a_unit_scales_a_scan_as_it_scales_a_mesh_and_faults_name_the_file) {
+    geometry::RangeScan scan;
+    scan.rows = scan.cols = 2;
+    scan.points_mm = {Point(0, 0, 0), Point(0.1, 0, 0), Point(0, 0.2, 0), Point(0.1, 0.2, 0.3)};
+    database::write_bnt(folder_ / "scan.bnt", database::to_bnt(scan));
+    const PanelDescription in_cm{.mesh = folder_ / "scan.bnt", .unit = geometry::LengthUnit::centimetre};
+    EXPECT_EQ(load_figure({.panels = {in_cm}}).panels[0].mesh.vertices_mm[3], 10 * scan.points_mm[3]);
+    scan.points_mm[3].z() = 1e300;
+    database::write_bnt(folder_ / "far.bnt", database::to_bnt(scan));
+    EXPECT_THAT(error_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "far.bnt"}}}); }),
+                HasSubstr("far.bnt: z of row 1, column 1"));
+}
+
+TEST_F(LoadFigure, the_scan_and_the_photograph_of_a_hidden_subject_are_refused) {
+    fs::create_directories(folder_ / "bs000");
+    geometry::write_mesh(folder_ / "bs000" / "face.ply", square(10));
+    geometry::write_mesh(folder_ / "face.ply", square(10));
+    EXPECT_NO_THROW((void)load_figure({.panels = {{.mesh = folder_ / "bs000" / "face.ply"}}}));
+    (void)written("Unallowed_subjects.txt", "BS000\n");
+    EXPECT_THAT(error_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "bs000" / "face.ply"}}}); }),
+                HasSubstr("subject 'bs000' stands in"));
+    EXPECT_THAT(
+        error_of([&] {
+            (void)load_figure({.panels = {{.mesh = folder_ / "face.ply", .texture = folder_ / "bs000" / "face.png"}}});
+        }),
+        HasSubstr("subject 'bs000' stands in"));
+    EXPECT_NO_THROW((void)load_figure({.panels = {{.mesh = folder_ / "face.ply"}}}));
+}
+
 TEST_F(LoadFigure, an_unknown_kind_of_control_is_refused_with_its_line) {
     geometry::write_mesh(folder_ / "face.ply", square(10));
     const auto controls = written("controls.csv", "name,x,y,z,kind\na,1,0,0,muscle\nb,0,1,0,bone\n");

@@ -236,10 +236,12 @@ TEST_F(WorkspaceTest, one_and_two_threads_write_the_same_bytes) {
 }
 
 TEST_F(WorkspaceTest, hidden_subjects_are_known_to_the_workspace) {
-    geometry::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
+    geometry::write_atomically(database_ / "unallowed_subjects.txt", "BS001\n");
     (void)preprocess();
     const Workspace workspace(workspace_);
     EXPECT_TRUE(workspace.hidden("bs001"));
+    EXPECT_TRUE(workspace.hidden("Bs001"));
+    EXPECT_THROW(workspace.refuse_hidden("bs001"), InputError);
     EXPECT_FALSE(workspace.hidden("bs000"));
 }
 

@@ -1,0 +1,220 @@
+#include "database/hidden_subjects.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "database/manifest.h"
+#include "database/scan_id.h"
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "geometry/text.h"
+
+namespace mimik::database {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t max_list_bytes = 16 << 20;
+constexpr std::string_view list_name = "unallowed_subjects.txt";
+constexpr std::size_t most_remarks = 50;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// "bs001" of "bs001", "BS1" and "01"; empty for other words.
+std::optional<std::string> numbered(std::string_view word) {
+    const std::string lower = geometry::lower_case(word);
+    std::string_view digits = lower;
+    if (digits.starts_with("bs")) digits.remove_prefix(2);
+    if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
+    while (digits.size() > 1 && digits.front() == '0') digits.remove_prefix(1);
+    return fmt::format("bs{:0>3}", digits);
+}
+
+/// What two spellings of one subject have in common.
+std::string canonical(std::string_view word) {
+    if (auto number = numbered(word)) return *number;
+    std::string name = geometry::lower_case(word);
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == ' ' || c == '_'; }, '-');
+    return name;
+}
+
+class ListReader {
+public:
+    ListReader(std::string text, const std::string& name, std::span<const std::string> subjects)
+        : text_(std::move(text)), lines_(text_, name), name_(name) {
+        for (const auto& subject : subjects) {
+            known_.emplace_back(canonical(subject), subject);
+            numbers_are_subjects_ = numbers_are_subjects_ || numbered(subject).has_value();
+        }
+    }
+
+    HiddenSubjects read() {
+        while (lines_.next()) {
+            if (std::any_of(lines_.line().begin(), lines_.line().end(),
+                            [](char c) { return c >= 0 && c < ' ' && c != '\t'; }))
+                lines_.fail("is not plain text; save the list as UTF-8 with a line for each subject");
+            // A whole line first: a name may hold any character that separates others.
+            if (hide_known(geometry::trimmed(lines_.line()))) continue;
+            const auto entries = geometry::trimmed(lines_.line().substr(0, lines_.line().find('#')));
+            if (!entries.empty() && !hide_known(entries)) take_parts(entries, " \t,;", &ListReader::take_field);
+        }
+        return {{found_.begin(), found_.end()}, std::move(remarks_)};
+    }
+
+    void refuse_if_none_matched(const HiddenSubjects& hidden) const {
+        if (first_unmatched_line_ == 0 || !hidden.subjects.empty()) return;
+        throw InputError(
+            fmt::format("{}: line {}: {} is no subject of this database, nor is any other entry: nobody would be "
+                        "hidden; write one subject a line as 'mimik scans' names them, or empty the list",
+                        name_, first_unmatched_line_, geometry::in_quotes(first_unmatched_)));
+    }
+
+private:
+    template <class Take>
+    void take_parts(std::string_view text, std::string_view separators, const Take& take) {
+        while (!text.empty()) {
+            const auto end = std::min(text.find_first_of(separators), text.size());
+            if (end > 0) (this->*take)(text.substr(0, end));
+            text.remove_prefix(std::min(end + 1, text.size()));
+        }
+    }
+
+    bool hide_known(std::string_view entry) {
+        if (entry.empty()) return false;
+        bool any = false;
+        const auto wanted = canonical(entry);
+        for (const auto& [spelling, subject] : known_) {
+            if (spelling != wanted) continue;
+            found_.insert(subject);
+            any = true;
+        }
+        return any;
+    }
+
+    bool hide(std::string_view entry) {
+        if (hide_known(entry)) return true;
+        const auto number = numbered(entry);
+        if (!number || !numbers_are_subjects_) return false;
+        if (found_.insert(*number).second)
+            remark(fmt::format("{}: line {}: no scan of '{}' is here; it is hidden all the same", name_,
+                               lines_.number(), number->substr(0, 40)));
+        return true;
+    }
+
+    /// What is no subject may be one with a full stop or brackets around it.
+    void take_field(std::string_view field) {
+        if (hide(field)) return;
+        std::string words(field);
+        std::replace_if(
+            words.begin(), words.end(),
+            [](char c) {
+                const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+                return !(is_digit(c) || letter || c == '-' || static_cast<unsigned char>(c) >= 0x80);
+            },
+            ' ');
+        if (words == field) return miss(field);
+        take_parts(words, " ", &ListReader::take_word);
+    }
+    void take_word(std::string_view word) {
+        if (!hide(word)) miss(word);
+    }
+
+    void miss(std::string_view entry) {
+        if (first_unmatched_line_ == 0) {
+            first_unmatched_line_ = lines_.number();
+            first_unmatched_ = entry;
+        }
+        remark(fmt::format("{}: line {}: {} is no subject of this database and is not hidden", name_, lines_.number(),
+                           geometry::in_quotes(entry)));
+    }
+    void remark(std::string text) {
+        if (remarks_.size() < most_remarks) remarks_.push_back(std::move(text));
+    }
+
+    std::string text_;
+    geometry::LineReader lines_;
+    std::string name_;
+    std::vector<std::pair<std::string, std::string>> known_;  // canonical, as the database spells it
+    bool numbers_are_subjects_ = false;
+    std::set<std::string> found_;
+    std::vector<std::string> remarks_;
+    std::size_t first_unmatched_line_ = 0;
+    std::string first_unmatched_;
+};
+
+/// Whose face the file may hold, by its name and by what lies between the list's folder and the file.
+std::vector<std::string> possible_subjects(const fs::path& file, const fs::path& list_folder) {
+    std::vector<std::string> subjects;
+    if (const auto id = parse_scan_name(file.stem().string())) subjects.push_back(id->subject);
+    for (auto folder = file.parent_path(); folder != list_folder; folder = folder.parent_path())
+        subjects.push_back(folder.filename().string());
+    const auto manifest_file = list_folder / "manifest.csv";
+    std::error_code error;
+    if (fs::is_regular_file(manifest_file, error))
+        for (const auto& entry :
+             parse_manifest(geometry::read_text(manifest_file, max_list_bytes), manifest_file).scans)
+            if (entry.scan_file == file ||
+                (entry.scan_file.filename() == file.filename() && fs::equivalent(entry.scan_file, file, error)))
+                subjects.push_back(entry.id.subject);
+    return subjects;
+}
+
+void refuse_hidden_at(const fs::path& file) {
+    auto folder = file.parent_path();
+    for (int level = 0; level < 3; ++level, folder = folder.parent_path()) {
+        for (const auto& list : hidden_subjects_files(folder)) {
+            const auto subjects = possible_subjects(file, folder);
+            const auto hidden =
+                ListReader(geometry::read_text(list, max_list_bytes), list.string(), subjects).read().subjects;
+            for (const auto& subject : subjects)
+                if (is_hidden(hidden, subject))
+                    throw InputError(fmt::format("{}: subject '{}' stands in {} and must not be shown; choose another",
+                                                 file.string(), subject, list.string()));
+        }
+        if (folder == folder.parent_path()) return;
+    }
+}
+
+}  // namespace
+
+HiddenSubjects parse_hidden_subjects(std::string_view text, const std::string& name,
+                                     std::span<const std::string> subjects) {
+    ListReader reader(std::string(text), name, subjects);
+    auto hidden = reader.read();
+    reader.refuse_if_none_matched(hidden);
+    return hidden;
+}
+
+std::vector<fs::path> hidden_subjects_files(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error, ignored;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+        if (geometry::equal_ignoring_case(it->path().filename().string(), list_name) && !it->is_directory(ignored))
+            files.push_back(it->path());
+    if (error) {  // a folder that may be entered but not listed
+        files.clear();
+        if (fs::exists(folder / list_name, ignored)) files.push_back(folder / list_name);
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+bool is_hidden(std::span<const std::string> hidden_subjects, std::string_view subject) {
+    return std::any_of(hidden_subjects.begin(), hidden_subjects.end(),
+                       [&](const auto& hidden) { return geometry::equal_ignoring_case(hidden, subject); });
+}
+
+void refuse_hidden_file(const fs::path& file) {
+    std::error_code error;
+    const auto place = fs::absolute(file, error).lexically_normal();
+    if (error) return;  // the file itself cannot be read either
+    refuse_hidden_at(place);
+    if (const auto target = fs::canonical(file, error); !error && target != place) refuse_hidden_at(target);
+}
+
+}  // namespace mimik::database

@@ -1,0 +1,115 @@
+#include "database/hidden_subjects.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "tests/database/temporary_folder.h"
+
+namespace mimik::database {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+HiddenSubjects parsed(std::string_view text, const std::vector<std::string>& subjects) {
+    return parse_hidden_subjects(text, "list.txt", subjects);
+}
+std::string error_of(std::string_view text, const std::vector<std::string>& subjects) {
+    return message_of<InputError>([&] { (void)parsed(text, subjects); });
+}
+
+TEST(HiddenSubjects, a_subject_is_found_by_any_spelling_of_its_number_and_kept_as_the_database_spells_it) {
+    for (const char* entry : {"bs001", "BS001", "bs1", "bs01", "bs0001", "1", "01", "001"}) {
+        const auto list = parsed(entry, {"Bs001", "bs010", "bs011"});
+        EXPECT_THAT(list.subjects, ElementsAre("Bs001")) << entry;
+        EXPECT_THAT(list.remarks, IsEmpty()) << entry;
+    }
+}
+
+TEST(HiddenSubjects, a_line_that_is_a_subject_as_a_whole_is_that_subject_whatever_its_letters) {
+    const std::vector<std::string> subjects = {"müller", "j.doe", "anna-maria", "anna", "doe"};
+    EXPECT_THAT(parsed("  müller \n", subjects).subjects, ElementsAre("müller"));
+    EXPECT_THAT(parsed("J.Doe\r\n", subjects).subjects, ElementsAre("j.doe"));
+    EXPECT_THAT(parsed("Anna Maria\n", subjects).subjects, ElementsAre("anna-maria"));
+    EXPECT_THAT(parsed("anna_maria # left the study\n", subjects).subjects, ElementsAre("anna-maria"));
+    EXPECT_THAT(parsed("j.doe, müller; (anna)\n", subjects).subjects, ElementsAre("anna", "j.doe", "müller"));
+}
+
+TEST(HiddenSubjects, every_entry_that_matches_no_subject_is_remarked_with_its_line) {
+    const auto list = parsed("bs000\nnobody\nbs077 x.y\n", {"bs000"});
+    EXPECT_THAT(list.subjects, ElementsAre("bs000", "bs077"));  // also one whose scans are not here
+    EXPECT_THAT(list.remarks, ElementsAre(HasSubstr("list.txt: line 2: 'nobody' is no subject"),
+                                          HasSubstr("line 3: no scan of 'bs077' is here"),
+                                          HasSubstr("line 3: 'x' is no subject"), HasSubstr("'y' is no subject")));
+}
+
+TEST(HiddenSubjects, a_list_that_would_hide_nobody_is_refused) {
+    EXPECT_THAT(error_of("# names\n\nnobody\n", {"bs000"}),
+                AllOf(HasSubstr("list.txt: line 3: 'nobody'"), HasSubstr("write one subject a line")));
+    EXPECT_THAT(error_of("12\n", {"anna", "müller"}), HasSubstr("line 1: '12'"));   // numbers are no subjects there
+    EXPECT_THAT(error_of("m\xfcller\n", {"anna", "müller"}), HasSubstr("line 1"));  // Latin-1
+    EXPECT_THAT(error_of(std::string_view("b\0s\0"
+                                          "0\0",
+                                          6),
+                         {"bs000"}),
+                HasSubstr("not plain text"));  // UTF-16
+    EXPECT_THAT(error_of("bs000\rbs001", {"bs000", "bs001"}), HasSubstr("not plain text"));
+}
+
+TEST(HiddenSubjects, a_list_of_comments_hides_nobody) {
+    EXPECT_THAT(parsed("", {"bs000"}).subjects, IsEmpty());
+    EXPECT_THAT(parsed("# bs000\n\n", {"bs000"}).subjects, IsEmpty());
+}
+
+TEST(HiddenSubjects, the_lists_name_is_taken_without_regard_to_case) {
+    const TemporaryFolder folder;
+    EXPECT_THAT(hidden_subjects_files(folder.path()), IsEmpty());
+    geometry::write_atomically(folder.path() / "Unallowed_Subjects.TXT", "1\n");
+    EXPECT_THAT(hidden_subjects_files(folder.path()), ElementsAre(folder.path() / "Unallowed_Subjects.TXT"));
+}
+
+class RefuseHiddenFile : public testing::Test {
+protected:
+    std::string refused(const std::filesystem::path& file) {
+        geometry::write_atomically(folder_.path() / file, "a scan");
+        return message_of<InputError>([&] { refuse_hidden_file(folder_.path() / file); });
+    }
+    void list(const std::string& text) { geometry::write_atomically(folder_.path() / "Unallowed_subjects.txt", text); }
+    static constexpr const char* shown = "nothing was thrown";
+    TemporaryFolder folder_;
+};
+
+TEST_F(RefuseHiddenFile, a_file_is_refused_by_its_own_name_or_its_folders_up_to_two_below_the_list) {
+    list("BS000\n7\nnobody\n");
+    EXPECT_THAT(refused("bs000_N_N_0.ply"), HasSubstr("subject 'bs000' stands in"));
+    EXPECT_THAT(refused("bs000/x.bnt"), HasSubstr("subject 'bs000'"));
+    EXPECT_THAT(refused("truth/bs007/x.ply"), HasSubstr("subject 'bs007'"));
+    EXPECT_EQ(refused("bs001/bs001_N_N_0.bnt"), shown);
+    EXPECT_EQ(refused("bs001_N_N_0.bnt"), shown);
+    EXPECT_EQ(refused("a/b/bs000/x.bnt"), shown);  // three below
+}
+
+TEST_F(RefuseHiddenFile, a_link_to_a_hidden_file_is_refused) {
+    list("bs000\n");
+    (void)refused("bs000/x.bnt");
+    const TemporaryFolder elsewhere;
+    std::filesystem::create_symlink(folder_.path() / "bs000/x.bnt", elsewhere.path() / "y.bnt");
+    EXPECT_THAT(message_of<InputError>([&] { refuse_hidden_file(elsewhere.path() / "y.bnt"); }),
+                HasSubstr("subject 'bs000'"));
+}
+
+TEST_F(RefuseHiddenFile, a_manifest_beside_the_list_says_whose_file_it_is) {
+    list("müller\n");
+    geometry::write_atomically(folder_.path() / "manifest.csv",
+                               "subject,expression,scan\nmüller,N,scans/1.ply\nanna,N,scans/2.ply\n");
+    EXPECT_THAT(refused("scans/1.ply"), HasSubstr("subject 'müller'"));
+    EXPECT_EQ(refused("scans/2.ply"), shown);
+}
+
+}  // namespace
+}  // namespace mimik::database
