@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "database/bnt.h"
 #include "database/bosphorus_landmarks.h"
@@ -199,6 +202,62 @@ MadeSubject make_subject(const fs::path& folder, const FaceModel& model, const s
     return made;
 }
 
+/// Where links lead, also one to a folder that is not there yet: the database is made there and the link stays.
+fs::path resolved(const fs::path& out) {
+    if (out.empty()) throw InputError("OUT is empty; give the name of a new folder for the database");
+    std::error_code error;
+    fs::path place = fs::absolute(out, error);
+    if (!place.has_filename()) place = place.parent_path();
+    constexpr int most_links = 40;  // as the system itself follows
+    for (int k = 0; !error && k < most_links && fs::is_symlink(fs::symlink_status(place, error)); ++k)
+        place = place.parent_path() / fs::read_symlink(place, error);
+    if (!error) place = fs::weakly_canonical(place, error);
+    const bool exists = !error && fs::exists(place, error);
+    if (error)
+        throw InputError(fmt::format("{}: cannot be used ({}); give a new folder", out.string(), error.message()));
+    if (exists && (!fs::is_directory(place, error) || !fs::is_empty(place, error)))
+        throw InputError(fmt::format("{}: exists already; give a new folder or remove this one", out.string()));
+    return place;
+}
+
+/// A new folder beside the place where the database is to be; gone, with what is in it, unless it got there.
+class UnfinishedFolder {
+public:
+    explicit UnfinishedFolder(fs::path place) : place_(std::move(place)) {
+        std::error_code error;
+        fs::create_directories(place_.parent_path(), error);
+        constexpr int most_tries = 1000;  // what is there under such a name is another's and stays
+        for (int k = 0; !error && k < most_tries; ++k) {
+            auto folder = place_;
+            folder += fmt::format(".{}-{}.part", ::getpid(), k);
+            if (!fs::create_directory(folder, error)) continue;
+            folder_ = std::move(folder);
+            return;
+        }
+        throw InputError(fmt::format("{}: no folder can be made there ({}); write elsewhere", place_.string(),
+                                     error ? error.message() : "too many unfinished ones"));
+    }
+    ~UnfinishedFolder() {
+        std::error_code ignored;
+        if (!folder_.empty()) fs::remove_all(folder_, ignored);
+    }
+    UnfinishedFolder(const UnfinishedFolder&) = delete;
+    UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
+
+    [[nodiscard]] const fs::path& path() const { return folder_; }
+    void finish() {
+        std::error_code error;
+        fs::rename(folder_, place_, error);  // an empty folder is replaced, one that was filled meanwhile is not
+        if (error)
+            throw InputError(fmt::format("{}: the database cannot be put there ({}); give another folder",
+                                         place_.string(), error.message()));
+        folder_.clear();
+    }
+
+private:
+    fs::path place_, folder_;
+};
+
 }  // namespace
 
 void SynthesizeOptions::check() const {
@@ -206,6 +265,12 @@ void SynthesizeOptions::check() const {
     if (neutrals < 1 || neutrals > 10) throw InputError(fmt::format("neutrals is {}; give 1 to 10", neutrals));
     variances.check();
     scanner.check();
+    // Neutral scans alone are asked for with "N" or nothing at all, not by a slip of the pen.
+    if (!expressions.empty() && expressions.find_first_not_of(", ") == std::string::npos)
+        throw InputError(
+            fmt::format("expressions is '{}', which names none; give thesis, emotions, further, all, N or "
+                        "codes such as 12,12L,HAPPY",
+                        expressions));
     (void)make_expressions(expressions);
 }
 
@@ -231,13 +296,11 @@ SynthesizeEstimate estimate_database(const FaceModel& model, const SynthesizeOpt
 
 SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model, const SynthesizeOptions& options) {
     options.check();
-    if (fs::exists(out) && (!fs::is_directory(out) || !fs::is_empty(out)))
-        throw InputError(fmt::format("{}: exists already; give a new folder or remove this one", out.string()));
+    const fs::path place = resolved(out);
     SynthesizeReport report;
     const auto tasks = plan_scans(model, options, report.skipped_expressions);
-    const fs::path place = fs::absolute(out).lexically_normal();
-    const fs::path folder = fs::path(place.has_filename() ? place : place.parent_path()).concat(".part");
-    fs::remove_all(folder);
+    UnfinishedFolder unfinished(place);
+    const fs::path& folder = unfinished.path();
 
     std::vector<MadeSubject> subjects(static_cast<std::size_t>(options.subjects));
     geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -248,7 +311,10 @@ SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model
 
     json subject_list = json::array(), scan_list = json::array();
     std::string facs = "Synthetic FACS scores, from the strengths that were asked for\nname -> code+code+...\n";
+    std::string sexes = "subject,sex\n";
     for (const auto& subject : subjects) {
+        sexes += fmt::format("{},{}\n", subject.truth.at("name").get<std::string>(),
+                             subject.truth.at("sex").get<std::string>());
         subject_list.push_back(subject.truth);
         for (const auto& scan : subject.scans) scan_list.push_back(scan);
         facs += subject.facs_lines;
@@ -263,11 +329,11 @@ SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model
                         {"subjects", subject_list},
                         {"scans", scan_list}};
     geometry::write_atomically(folder / "truth" / "truth.json", truth.dump() + "\n");
+    geometry::write_atomically(folder / "subjects.csv", sexes);
     if (options.facs_codes) geometry::write_atomically(folder / "facscodes.lst", facs);
     for (const auto& entry : fs::recursive_directory_iterator(folder))
         if (entry.is_regular_file()) report.bytes += entry.file_size();
-    if (fs::exists(out)) fs::remove(out);
-    fs::rename(folder, out);
+    unfinished.finish();
     return report;
 }
 

@@ -8,6 +8,7 @@
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/mesh_io.h"
+#include "geometry/text.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -15,23 +16,28 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-json read_json(const fs::path& file) {
-    auto document = json::parse(geometry::read_text(file), nullptr, false);
-    if (document.is_discarded())
-        throw InputError(fmt::format("{}: not valid JSON; synthesize the database again", file.string()));
-    if (const auto schema = document.value("schema", 0); schema != 1)
-        throw InputError(fmt::format("{}: schema is {}, this program reads 1", file.string(), schema));
-    return document;
-}
+constexpr std::size_t max_vertices = 2'000'000;  // ICT-FaceKit's faces have 26,719
 
 /// The library's own messages name neither file nor mend.
 template <class Read>
-auto reading(const fs::path& file, const Read& read) {
+auto reading(const std::string& text, const std::string& name, const Read& read) {
     try {
-        return read();
+        const auto document = json::parse(text, nullptr, false);
+        if (document.is_discarded())
+            throw InputError(fmt::format("{}: not valid JSON; synthesize the database again", name));
+        if (const auto schema = document.value("schema", 0); schema != 1)
+            throw InputError(fmt::format("{}: schema is {}, this program reads 1", name, schema));
+        return read(document);
     } catch (const json::exception& e) {
-        throw InputError(fmt::format("{}: {}; synthesize the database again", file.string(), e.what()));
+        throw InputError(fmt::format("{}: {}; synthesize the database again", name, e.what()));
     }
+}
+
+/// A whole number below `limit`: nothing is allocated or looked up by one that is not.
+std::size_t number_below(std::size_t limit, const json& value, const std::string& name, const std::string& field) {
+    if (value.is_number_unsigned() && value.get<std::uint64_t>() < limit) return value.get<std::size_t>();
+    throw InputError(fmt::format("{}: {} is {}, not a whole number below {}; synthesize the database again", name,
+                                 field, value.is_structured() ? "a list" : value.dump().substr(0, 40), limit));
 }
 
 }  // namespace
@@ -51,18 +57,38 @@ Truth open_truth(const fs::path& database_root) {
     if (!fs::exists(file))
         throw InputError(
             fmt::format("{}: missing; only a database made by 'mimik synthesize' has a known truth", file.string()));
-    const json document = read_json(file);
-    return reading(file, [&] {
+    auto truth = decode_truth(geometry::read_text(file), file.string());
+    truth.root = database_root;
+    return truth;
+}
+
+Truth decode_truth(const std::string& text, const std::string& name) {
+    return reading(text, name, [&](const json& document) {
         Truth truth;
-        truth.root = database_root;
         truth.seed = document.at("seed").get<std::uint64_t>();
         const auto& model = document.at("face_model");
         truth.face_model = model.at("name").get<std::string>();
-        for (const auto& face : model.at("faces")) truth.faces.add(face.get<std::vector<std::uint32_t>>());
-        truth.vertex_regions.assign(model.at("vertices").get<std::size_t>(), "skin");
-        for (const auto& [region, vertices] : model.at("regions").items())
-            for (const auto& vertex : vertices) truth.vertex_regions.at(vertex.get<std::size_t>()) = region;
-        truth.landmark_vertices = model.at("landmark_vertices").get<std::map<std::string, std::uint32_t>>();
+        const auto vertices = number_below(max_vertices + 1, model.at("vertices"), name, "face_model.vertices");
+        const auto vertex = [&](const json& value, const char* field) {
+            return static_cast<std::uint32_t>(number_below(vertices, value, name, field));
+        };
+        std::vector<std::uint32_t> corners;
+        for (const auto& face : model.at("faces")) {
+            corners.clear();
+            for (const auto& corner : face) corners.push_back(vertex(corner, "a corner in face_model.faces"));
+            if (corners.size() < 3)
+                throw InputError(
+                    fmt::format("{}: a face of face_model.faces has {} corners, not 3 or more; synthesize "
+                                "the database again",
+                                name, corners.size()));
+            truth.faces.add(corners);
+        }
+        truth.vertex_regions.assign(vertices, "skin");
+        for (const auto& [region, members] : model.at("regions").items())
+            for (const auto& member : members)
+                truth.vertex_regions[vertex(member, "a vertex in face_model.regions")] = region;
+        for (const auto& [landmark, value] : model.at("landmark_vertices").items())
+            truth.landmark_vertices[landmark] = vertex(value, "a vertex in face_model.landmark_vertices");
         for (const auto& entry : document.at("subjects"))
             truth.subjects.push_back({entry.at("name").get<std::string>(), entry.at("sex").get<std::string>(),
                                       entry.at("amplitude").get<double>(), entry.at("asymmetry").get<double>(),
@@ -70,7 +96,8 @@ Truth open_truth(const fs::path& database_root) {
         for (const auto& entry : document.at("scans")) {
             const auto id = database::parse_scan_name(entry.get<std::string>());
             if (!id)
-                throw InputError(fmt::format("{}: '{}' is not a scan name", file.string(), entry.get<std::string>()));
+                throw InputError(fmt::format("{}: scans has {}, which is no scan name; synthesize the database again",
+                                             name, geometry::in_quotes(entry.get<std::string>())));
             truth.scans.push_back(*id);
         }
         return truth;
@@ -99,8 +126,7 @@ TrueScan load_true_scan(const Truth& truth, const database::ScanId& id) {
         scan.displacement_mm.emplace_back(attribute->values[3 * i], attribute->values[3 * i + 1],
                                           attribute->values[3 * i + 2]);
 
-    const json document = read_json(file);
-    reading(file, [&] {
+    reading(geometry::read_text(file), file.string(), [&](const json& document) {
         const auto pose = document.at("scanner_from_head").get<std::vector<std::vector<double>>>();
         if (pose.size() != 4 || std::any_of(pose.begin(), pose.end(), [](const auto& row) { return row.size() != 4; }))
             throw InputError(fmt::format("{}: scanner_from_head is not a 4x4 matrix", file.string()));

@@ -53,6 +53,8 @@ struct TrueScan {
 
 /// @throws InputError naming the file if the folder is not a synthetic database or its truth is of another schema.
 [[nodiscard]] Truth open_truth(const std::filesystem::path& database_root);
+/// truth.json from memory; `name` stands for the file in messages, the root stays empty. @throws InputError.
+[[nodiscard]] Truth decode_truth(const std::string& text, const std::string& name);
 /// @throws InputError naming the file and what does not fit.
 [[nodiscard]] TrueScan load_true_scan(const Truth& truth, const database::ScanId& id);
 

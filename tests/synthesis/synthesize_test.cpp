@@ -10,6 +10,7 @@
 #include "geometry/file.h"
 #include "geometry/parallel.h"
 #include "synthesis/truth.h"
+#include "tests/database/temporary_folder.h"
 #include "tests/synthesis/dome_model.h"
 
 namespace mimik::synthesis {
@@ -106,6 +107,81 @@ TEST_F(Synthesize, expressions_without_a_shape_are_left_out_by_name) {
     options_.expressions = "12,4";
     const auto report = synthesize_database(folder_ / "db", *model, options_);
     EXPECT_THAT(report.skipped_expressions, testing::ElementsAre("UFAU_4 (no shape browDown_L)"));
+}
+
+TEST_F(Synthesize, what_lies_beside_the_new_database_is_left_alone_and_nothing_is_left_there) {
+    const auto model = make_dome_model();
+    geometry::write_atomically(folder_ / "db.part" / "notes.txt", "mine");
+    (void)synthesize_database(folder_ / "db", *model, options_);
+    EXPECT_EQ(geometry::read_text(folder_ / "db.part" / "notes.txt"), "mine");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);
+    options_.on_scan_done = [](const std::string&) { throw InputError("stopped"); };
+    EXPECT_THROW((void)synthesize_database(folder_ / "stopped", *model, options_), InputError);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);
+}
+
+TEST_F(Synthesize, a_link_stays_and_the_database_is_made_where_it_leads) {
+    const auto model = make_dome_model();
+    fs::create_directories(folder_ / "disk" / "empty");
+    fs::create_directory_symlink("disk/empty", folder_ / "to_empty");
+    fs::create_directory_symlink("disk/new", folder_ / "to_new");
+    for (const char* link : {"to_empty", "to_new"}) {
+        (void)synthesize_database(folder_ / link, *model, options_);
+        EXPECT_TRUE(fs::is_symlink(folder_ / link)) << link;
+    }
+    EXPECT_TRUE(fs::exists(folder_ / "disk/empty/truth/truth.json"));
+    EXPECT_TRUE(fs::exists(folder_ / "disk/new/truth/truth.json"));
+}
+
+TEST_F(Synthesize, an_empty_name_and_an_empty_list_of_expressions_are_refused_by_name) {
+    const auto model = make_dome_model();
+    const auto error = [&](const fs::path& out) {
+        return database::message_of<InputError>([&] { (void)synthesize_database(out, *model, options_); });
+    };
+    EXPECT_THAT(error(""), HasSubstr("OUT is empty"));
+    for (const char* list : {",", " , "}) {
+        options_.expressions = list;
+        EXPECT_THAT(error(folder_ / "db"), HasSubstr("expressions is '" + std::string(list) + "'"));
+    }
+    EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(Synthesize, the_sex_of_every_subject_is_read_back_as_the_truth_has_it) {
+    const auto model = make_dome_model();
+    options_.subjects = 6;
+    options_.expressions = "12";
+    (void)synthesize_database(folder_ / "db", *model, options_);
+    const auto database = database::open_database(folder_ / "db");
+    const auto truth = open_truth(folder_ / "db");
+    ASSERT_EQ(truth.subjects.size(), 6U);
+    for (const auto& subject : truth.subjects)
+        EXPECT_EQ(database.neutrals(subject.name).at(0)->sex, subject.sex) << subject.name;
+}
+
+/// A truth.json whose face model has 4 vertices and one triangle, with one place changed.
+std::string small_truth(const std::string& from = "", const std::string& to = "") {
+    std::string text = R"({"schema": 1, "seed": 1, "face_model": {"name": "m", "vertices": 4, "faces": [[0, 1, 2]],)"
+                       R"( "regions": {"lip": [3]}, "landmark_vertices": {"nose_tip": 2}}, "subjects": [],)"
+                       R"( "scans": ["bs000_N_N_0"]})";
+    if (!from.empty()) text.replace(text.find(from), from.size(), to);
+    return text;
+}
+
+TEST(Truth, numbers_that_do_not_fit_the_faces_are_refused_with_file_field_and_value) {
+    EXPECT_EQ(decode_truth(small_truth(), "t.json").vertex_regions.at(3), "lip");
+    const auto error = [](const std::string& from, const std::string& to) {
+        return database::message_of<InputError>([&] { (void)decode_truth(small_truth(from, to), "t.json"); });
+    };
+    for (const char* vertices : {"100000000000", "-1", "1e11", "2.5", "null"})
+        EXPECT_THAT(error("\"vertices\": 4", std::string("\"vertices\": ") + vertices),
+                    HasSubstr("t.json: face_model.vertices is "));
+    EXPECT_THAT(error("[0, 1, 2]", "[0, 1, 4]"), HasSubstr("t.json: a corner in face_model.faces is 4"));
+    EXPECT_THAT(error("[0, 1, 2]", "[0, 1]"), HasSubstr("t.json: a face of face_model.faces has 2 corners"));
+    EXPECT_THAT(error("[3]", "[100]"), HasSubstr("t.json: a vertex in face_model.regions is 100"));
+    EXPECT_THAT(error("\"nose_tip\": 2", "\"nose_tip\": -2"),
+                HasSubstr("t.json: a vertex in face_model.landmark_vertices is -2"));
+    EXPECT_THAT(error("bs000_N_N_0", "bs000"), HasSubstr("t.json: scans has 'bs000'"));
+    EXPECT_THAT(database::message_of<InputError>([] { (void)decode_truth("[1]", "t.json"); }), HasSubstr("t.json: "));
 }
 
 TEST_F(Synthesize, a_folder_in_use_and_a_folder_without_truth_are_named) {
