@@ -200,9 +200,10 @@ std::uint32_t Sheet::nearest(double s, double t) const {
 
 LidThickness lid_thickness_mm(double across_eye, double v) {
     using namespace place;
-    const double taper = std::sqrt(std::max(0.0, 1 - across_eye * across_eye)), rim = 0.35 * std::min(1.0, 2.5 * taper);
-    return {(rim + 1.25 * taper) * smooth_step(upper_lid - 0.2, upper_lid + 0.9, v),
-            (rim + 0.75 * taper) * smooth_step(lower_lid + 0.2, lower_lid - 0.9, v)};
+    const double taper = std::sqrt(std::max(0.0, 1 - across_eye * across_eye));
+    const double edge_mm = 0.35 * std::min(1.0, 2.5 * taper);
+    return {(edge_mm + 1.25 * taper) * smooth_step(upper_lid - 0.2, upper_lid + 0.9, v),
+            (edge_mm + 0.75 * taper) * smooth_step(lower_lid + 0.2, lower_lid - 0.9, v)};
 }
 
 double brow_line(double a) { return 11 + 4.5 * smooth_step(8, 34, a) - 6 * smooth_step(34, 58, a); }
