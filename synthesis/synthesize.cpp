@@ -205,11 +205,11 @@ MadeSubject make_subject(const fs::path& folder, const FaceModel& model, const s
 /// Where links lead, also one to a folder that is not there yet: the database is made there and the link stays.
 fs::path resolved(const fs::path& out) {
     if (out.empty()) throw InputError("OUT is empty; give the name of a new folder for the database");
-    std::error_code error;
+    std::error_code error, absent;
     fs::path place = fs::absolute(out, error);
     if (!place.has_filename()) place = place.parent_path();
     constexpr int most_links = 40;  // as the system itself follows
-    for (int k = 0; !error && k < most_links && fs::is_symlink(fs::symlink_status(place, error)); ++k)
+    for (int k = 0; !error && k < most_links && fs::is_symlink(fs::symlink_status(place, absent)); ++k)
         place = place.parent_path() / fs::read_symlink(place, error);
     if (!error) place = fs::weakly_canonical(place, error);
     const bool exists = !error && fs::exists(place, error);
