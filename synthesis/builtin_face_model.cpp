@@ -65,6 +65,11 @@ public:
         return displacements;
     }
 
+    void settle(const std::vector<geometry::Point>& resting_mm, const Contact& contact,
+                std::vector<geometry::Vector>& displacement_mm) const override {
+        muscles_.settle(resting_mm, contact, displacement_mm);
+    }
+
 private:
     [[nodiscard]] const Motion& find_motion(const std::string& shape) const {
         const bool sided = shape.ends_with("_L") || shape.ends_with("_R");

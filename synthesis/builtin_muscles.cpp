@@ -273,11 +273,9 @@ void MuscleModel::turn_lips(const Sphincter& lips, double side, std::span<const 
         const double border = lower ? lower_lip : upper_lip, beyond = lower ? -98 : -58;
         const double red = std::clamp((p.v - border) / (stomion - border), 0.0, 1.0);  // 0 at the border, 1 at the line
         const double skin = (p.v - beyond) / (border - beyond);
-        const double toward = red > 0 ? 1 - 0.75 * red * 0 : smooth_step(0, 1, skin);
-        const double dy =
-            (y->second - neutral_mm[i].y()) * lips.press * (red > 0 ? 1 : 0) +
-            (red > 0 ? 0 : 1) * toward * lips.press * (y->second - neutral_mm[i].y()) * smooth_step(0, 1, skin);
-        const double dz = -roll * (red > 0 ? 0.35 + 0.65 * smooth_step(0, 1, red) : 0.35 * smooth_step(0, 1, skin));
+        const double follows = red > 0 ? 1 : smooth_step(0, 1, skin);  // the skin beyond the border, less and less
+        const double dy = follows * lips.press * (y->second - neutral_mm[i].y());
+        const double dz = -roll * follows * (0.35 + 0.65 * smooth_step(0, 1, red));
         moved[i] += w * Vector(0, dy, dz);
     }
 }
@@ -352,6 +350,96 @@ std::vector<Vector> MuscleModel::displacement_mm(const Motion& motion, std::span
     part_crossing_lips(neutral_mm, moved);
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] *= held_[i];
     return moved;
+}
+
+/// Where a triangle of the front of the face has turned too far from how it lay at rest, the motion round it is
+/// smoothed along the sheet until it has not. Lips and lids do turn in; they are left alone.
+void MuscleModel::unfold(std::span<const Point> neutral_mm, std::vector<Vector>& moved) const {
+    constexpr int rounds = 12;
+    constexpr double least_cosine = 0.35;  // of the angle by which skin turns: 70 degrees is a fold
+    const auto free = [&](std::uint32_t i) {
+        const auto& p = sheet_.vertices[i];
+        const double a = std::abs(p.s);
+        const bool lid = std::abs(p.across_eye) < 1.45 && p.v > -26 && p.v < 12;
+        const bool lip = a < 30 && p.v < -64 && p.v > -92;
+        return !lid && !lip;
+    };
+    for (int round = 0; round < rounds; ++round) {
+        std::vector<double> folded(moved.size(), 0);
+        bool any = false;
+        for (const auto& t : triangles_) {
+            const Point &a = neutral_mm[t[0]], &b = neutral_mm[t[1]], &c = neutral_mm[t[2]];
+            const Vector was = (b - a).cross(c - a);
+            const Vector is = (b - a + moved[t[1]] - moved[t[0]]).cross(c - a + moved[t[2]] - moved[t[0]]);
+            if (is.dot(was) >= least_cosine * is.norm() * was.norm() || !free(t[0])) continue;
+            any = true;
+            for (const auto i : t) folded[i] = 1;
+        }
+        if (!any) return;
+        for (const auto& line : lines_) smooth_along(line, folded);
+        for (std::size_t i = 0; i < moved.size(); ++i)
+            folded[i] = free(static_cast<std::uint32_t>(i)) ? std::min(1.0, 4 * folded[i]) : 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            std::vector<double> smooth(moved.size());
+            for (std::size_t i = 0; i < moved.size(); ++i) smooth[i] = moved[i][axis];
+            for (const auto& line : lines_) smooth_along(line, smooth);
+            for (std::size_t i = 0; i < moved.size(); ++i) moved[i][axis] += folded[i] * (smooth[i] - moved[i][axis]);
+        }
+    }
+}
+
+/// Lids that would pass each other share the overlap, the upper one giving way most; those of a closed eye share what
+/// gap is left. They glide over the ball as move_lids has them.
+void MuscleModel::meet_lids(std::span<const Point> neutral_mm, bool right, bool closed,
+                            std::vector<Vector>& moved) const {
+    using namespace place;
+    constexpr double upper_part = 0.85;
+    const auto here = [&](std::uint32_t i) { return right ? sheet_.mirror[i] : i; };
+    for (const auto& column : eye_columns_) {
+        const double q = sheet_.vertices[column.front()].across_eye;
+        if (std::abs(q) >= 1) continue;
+        double gap = 0;
+        for (const auto left : column) {
+            const auto i = here(left);
+            const double y = neutral_mm[i].y() + moved[i].y();
+            if (sheet_.vertices[left].v == upper_lid) gap += y;
+            if (sheet_.vertices[left].v == lower_lid) gap -= y;
+        }
+        if (gap >= 0 && !closed) continue;
+        const auto ball_z = [&](double y) {  // the surface under the lids at a height of this column
+            std::size_t k = 0;
+            while (k + 2 < column.size() && neutral_mm[here(column[k + 1])].y() > y) ++k;
+            const auto under = [&](std::size_t j) {
+                const double v = sheet_.vertices[column[j]].v;
+                const auto lid = lid_thickness_mm(q, v);
+                return neutral_mm[here(column[j])].z() - lid.upper * smooth_step(8, 3, v) -
+                       lid.lower * smooth_step(-21, -15, v);
+            };
+            const double a = neutral_mm[here(column[k])].y(), b = neutral_mm[here(column[k + 1])].y();
+            const double f = std::clamp((a - y) / std::max(1e-9, a - b), 0.0, 1.0);
+            return under(k) + f * (under(k + 1) - under(k));
+        };
+        for (const auto left : column) {
+            const double v = sheet_.vertices[left].v;
+            const double upper = v >= upper_lid   ? 1 - smooth_step(upper_lid + 0.8, 9.5, v)
+                                 : v <= lower_lid ? 0
+                                                  : (v - lower_lid) / (upper_lid - lower_lid);
+            const double lower = v >= upper_lid ? 0 : v <= lower_lid ? smooth_step(-24, lower_lid - 0.8, v) : 1 - upper;
+            const double dy = gap * ((1 - upper_part) * lower - upper_part * upper);
+            if (dy == 0) continue;
+            const auto i = here(left);
+            const double y = neutral_mm[i].y() + moved[i].y();
+            const double glides = std::max(upper, lower) * smooth_step(1.15, 0.7, std::abs(q));
+            moved[i] += Vector(0, dy, glides * (ball_z(y + dy) - ball_z(y)));
+        }
+    }
+}
+
+void MuscleModel::settle(std::span<const Point> neutral_mm, const Contact& contact, std::vector<Vector>& moved) const {
+    unfold(neutral_mm, moved);
+    part_crossing_lips(neutral_mm, moved);
+    meet_lids(neutral_mm, false, contact.left_eye_closed, moved);
+    meet_lids(neutral_mm, true, contact.right_eye_closed, moved);
 }
 
 }  // namespace mimik::synthesis

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "synthesis/builtin_sheet.h"
+#include "synthesis/face_model.h"
 
 namespace mimik::synthesis {
 
@@ -80,6 +81,9 @@ public:
     /// Displacements at full strength of the left side (or of both, if central).
     [[nodiscard]] std::vector<geometry::Vector> displacement_mm(const Motion& motion,
                                                                 std::span<const geometry::Point> neutral_mm) const;
+    /// FaceModel::settle: smooths skin that would fold over, parts lips and lids that would cross, shuts closed eyes.
+    void settle(std::span<const geometry::Point> neutral_mm, const Contact& contact,
+                std::vector<geometry::Vector>& moved) const;
 
 private:
     [[nodiscard]] double lip_share(std::size_t vertex, Lip lip) const;
@@ -94,6 +98,9 @@ private:
                    std::vector<geometry::Vector>& moved) const;
     void move_jaw(const Sphincter& jaw, std::span<const geometry::Point> neutral_mm,
                   std::vector<geometry::Vector>& moved) const;
+    void unfold(std::span<const geometry::Point> neutral_mm, std::vector<geometry::Vector>& moved) const;
+    void meet_lids(std::span<const geometry::Point> neutral_mm, bool right, bool closed,
+                   std::vector<geometry::Vector>& moved) const;
     void part_crossing_lips(std::span<const geometry::Point> neutral_mm, std::vector<geometry::Vector>& moved) const;
 
     const Sheet& sheet_;

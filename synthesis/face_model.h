@@ -22,6 +22,11 @@ struct Identity {
     std::map<std::string, double> measurements_mm;  ///< for truth.json: face height, mouth width, ...
 };
 
+/// What touches what when an expression is done.
+struct Contact {
+    bool left_eye_closed = false, right_eye_closed = false;
+};
+
 /// A face with fixed topology whose identity can be drawn and whose skin can be moved. Frame and units as everywhere:
 /// mm, +x subject's left, +y up, +z out of the face.
 ///
@@ -58,6 +63,13 @@ public:
         displacements.reserve(shapes.size());
         for (const auto& shape : shapes) displacements.push_back(shape_displacement_mm(identity, shape));
         return displacements;
+    }
+    /// What a sum of shapes does and no shape alone may do: lips or lids through each other, skin folded over itself.
+    /// Mends `displacement_mm` (of a performance on `resting_mm`) in place; an eye that `contact` closes ends closed.
+    /// A model whose shapes were scanned rather than built leaves it as it is.
+    virtual void settle(const std::vector<geometry::Point>& resting_mm, const Contact& contact,
+                        std::vector<geometry::Vector>& displacement_mm) const {
+        (void)resting_mm, (void)contact, (void)displacement_mm;
     }
 };
 

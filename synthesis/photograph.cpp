@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "synthesis/builtin_curves.h"
 #include "synthesis/depth_raster.h"
 #include "synthesis/random_stream.h"
 #include "synthesis/smooth_field.h"
@@ -29,11 +30,6 @@ Palette draw_palette(RandomStream random) {
                                           Colour(84, 112, 140)};
     palette.iris = irises[static_cast<std::size_t>(random.uniform() * 4.0)];
     return palette;
-}
-
-double smooth_step(double low, double high, double value) {
-    const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
 }
 
 Colour mix(const Colour& a, const Colour& b, double share_of_b) { return a + share_of_b * (b - a); }

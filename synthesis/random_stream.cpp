@@ -31,6 +31,4 @@ double RandomStream::normal() {
     return radius * std::cos(angle);
 }
 
-double RandomStream::log_normal(double deviation) { return std::exp(deviation * normal()); }
-
 }  // namespace mimik::synthesis

@@ -20,8 +20,6 @@ public:
 
     [[nodiscard]] double uniform();  ///< in (0, 1), never an end
     [[nodiscard]] double normal();   ///< mean 0, standard deviation 1 (Box and Muller 1958)
-    /// exp of a normal draw: median 1, `deviation` in natural logarithms (0.15 is close to 15 %).
-    [[nodiscard]] double log_normal(double deviation);
 
 private:
     std::mt19937_64 engine_;

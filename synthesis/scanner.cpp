@@ -155,6 +155,14 @@ double FaceWindow::level(const Point& head_mm) const {
     return std::pow(std::pow(x, 2.3) + std::pow(y, 2.3), 1.0 / 2.3);
 }
 
+FaceWindow FaceWindow::following_chin(double moved_chin_y_mm) const {
+    FaceWindow moved = *this;
+    const double down = std::max(0.0, chin_y_mm - moved_chin_y_mm);
+    moved.centre_mm.y() -= 0.5 * down;
+    moved.half_height_mm += 0.5 * down;
+    return moved;
+}
+
 FaceWindow face_window(const FaceModel& model, const std::vector<Point>& resting_mm) {
     const auto at = [&](const char* name) { return resting_mm[model.landmark_vertices().at(name)]; };
     const Point eyes = 0.5 * (at("eye_outer_left") + at("eye_outer_right"));
@@ -163,13 +171,15 @@ FaceWindow face_window(const FaceModel& model, const std::vector<Point>& resting
     FaceWindow window;
     window.centre_mm = {eyes.x(), 0.5 * (top + bottom), eyes.z()};
     window.half_height_mm = 0.5 * (top - bottom);
+    window.chin_y_mm = at("chin").y();
     window.half_width_mm = 0.85 * (at("eye_outer_left") - at("eye_outer_right")).norm();
     return window;
 }
 
-SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertices_mm, const FaceWindow& window,
+SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertices_mm, const FaceWindow& resting_window,
                         const std::string& scan_name, std::uint64_t seed, const ScannerOptions& options) {
     options.check();
+    const FaceWindow window = resting_window.following_chin(vertices_mm[model.landmark_vertices().at("chin")].y());
     SyntheticScan result;
     result.scanner_from_head = draw_pose(RandomStream(seed, scan_name + "/pose"), options);
     std::vector<Point> vertices(vertices_mm.size());

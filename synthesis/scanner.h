@@ -47,19 +47,22 @@ struct SyntheticScan {
 };
 
 /// The part of the surface that the scanner keeps: an oval from the hairline to below the chin, placed by eye corners
-/// and chin of the resting face.
+/// and chin of the resting face. Its lower edge follows a chin that moves down, as the operator of a scanner would.
 struct FaceWindow {
     geometry::Point centre_mm = geometry::Point::Zero();
     double half_width_mm = 0, half_height_mm = 0;
+    double chin_y_mm = 0;  ///< of the resting face
     /// 0 at the centre, 1 on the border.
     [[nodiscard]] double level(const geometry::Point& head_mm) const;
+    /// This window with its lower edge moved down as far as the chin has moved.
+    [[nodiscard]] FaceWindow following_chin(double moved_chin_y_mm) const;
 };
 [[nodiscard]] FaceWindow face_window(const FaceModel& model, const std::vector<geometry::Point>& resting_mm);
 
 /// @param vertices_mm the surface in the head frame
 /// @param scan_name names the streams of chance
 [[nodiscard]] SyntheticScan scan_face(const FaceModel& model, const std::vector<geometry::Point>& vertices_mm,
-                                      const FaceWindow& window, const std::string& scan_name, std::uint64_t seed,
-                                      const ScannerOptions& options = {});
+                                      const FaceWindow& resting_window, const std::string& scan_name,
+                                      std::uint64_t seed, const ScannerOptions& options = {});
 
 }  // namespace mimik::synthesis

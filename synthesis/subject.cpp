@@ -21,6 +21,13 @@ double landmark_distance(const FaceModel& model, const std::vector<Point>& face,
     return (face[marks.at(a)] - face[marks.at(b)]).norm();
 }
 
+/// As many deviations as a face can follow (VarianceOptions).
+double clipped(double standard_normal) { return std::clamp(standard_normal, -2.0, 2.0); }
+/// Median 1, `deviation` in natural logarithms (0.15 is close to 15 %).
+double clipped_log_normal(RandomStream& random, double deviation) {
+    return std::exp(deviation * clipped(random.normal()));
+}
+
 bool upper_face(const std::string& shape) { return shape.starts_with("brow") || shape.starts_with("eye"); }
 
 void range(const char* field, double value, double low, double high) {
@@ -39,10 +46,10 @@ void distort(std::vector<Vector>& displacement, const std::vector<Point>& face, 
     for (std::size_t i = 0; i < displacement.size(); ++i) {
         if (displacement[i].squaredNorm() < 1e-12) continue;
         const auto value = field.at(face[i]);
-        const Vector axis = turn * Vector(value[1], value[2], value[3]);
+        const Vector axis = turn * Vector(clipped(value[1]), clipped(value[2]), clipped(value[3]));
         const double angle = axis.norm();
         if (angle > 0) displacement[i] = Eigen::AngleAxisd(angle, axis / angle) * displacement[i];
-        displacement[i] *= std::max(0.0, 1.0 + options.field_magnitude * value[0]);
+        displacement[i] *= std::max(0.0, 1.0 + options.field_magnitude * clipped(value[0]));
     }
 }
 
@@ -70,11 +77,12 @@ Subject draw_subject(const FaceModel& model, const std::string& name, std::uint6
     Subject subject;
     subject.name = name;
     const Sex sex = RandomStream(seed, name + "/sex").uniform() < 0.5 ? Sex::female : Sex::male;
+    subject.model = &model;
     subject.identity = model.draw_identity(stream_seed(seed, name + "/identity"), sex, options.identity);
     subject.resting_mm = model.neutral_mm(subject.identity);
     RandomStream person(seed, name + "/person");
-    subject.amplitude = person.log_normal(options.amplitude_person);
-    subject.asymmetry = options.asymmetry_person * person.normal();
+    subject.amplitude = clipped_log_normal(person, options.amplitude_person);
+    subject.asymmetry = options.asymmetry_person * clipped(person.normal());
 
     const auto mean = model.neutral_mm(model.draw_identity(0, sex, 0.0));
     const auto ratio = [&](const char* a, const char* b) {
@@ -95,8 +103,8 @@ Performance perform(const Subject& subject, const Expression& expression, const 
     Performance result;
     RandomStream amplitude(seed, scan_name + "/amplitude");
     RandomStream asymmetry(seed, scan_name + "/asymmetry");
-    result.amplitude = subject.amplitude * amplitude.log_normal(options.amplitude_performance);
-    result.asymmetry = subject.asymmetry + options.asymmetry_performance * asymmetry.normal();
+    result.amplitude = subject.amplitude * clipped_log_normal(amplitude, options.amplitude_performance);
+    result.asymmetry = subject.asymmetry + options.asymmetry_performance * clipped(asymmetry.normal());
 
     const auto side_factor = [&](const std::string& shape) {
         return shape.ends_with("_L") ? 1.0 + result.asymmetry : shape.ends_with("_R") ? 1.0 - result.asymmetry : 1.0;
@@ -106,7 +114,7 @@ Performance perform(const Subject& subject, const Expression& expression, const 
             throw InputError(fmt::format("{}: the face model has no shape '{}'", scan_name, part.shape));
         RandomStream random(seed, fmt::format("{}/shape/{}", scan_name, part.shape));
         result.weights[part.shape] +=
-            part.weight * result.amplitude * side_factor(part.shape) * random.log_normal(options.shape);
+            part.weight * result.amplitude * side_factor(part.shape) * clipped_log_normal(random, options.shape);
     }
     for (const auto& part : expression.co_activated) {
         if (!std::binary_search(subject.shapes.begin(), subject.shapes.end(), part.shape)) continue;
@@ -114,8 +122,8 @@ Performance perform(const Subject& subject, const Expression& expression, const 
         std::string stem = part.shape;
         if (stem.ends_with("_L") || stem.ends_with("_R")) stem.resize(stem.size() - 2);
         RandomStream random(seed, fmt::format("{}/co/{}", scan_name, stem));
-        const double drawn =
-            options.co_activation * part.weight + options.co_activation_spread * part.deviation * random.normal();
+        const double drawn = options.co_activation * part.weight +
+                             options.co_activation_spread * part.deviation * clipped(random.normal());
         result.weights[part.shape] += std::max(0.0, drawn) * result.amplitude * side_factor(part.shape);
     }
 
@@ -136,11 +144,19 @@ Performance perform(const Subject& subject, const Expression& expression, const 
     if (options.micro_expression > 0) {
         for (std::size_t s = 0; s < subject.shapes.size(); ++s) {
             RandomStream random(seed, fmt::format("{}/micro/{}", scan_name, subject.shapes[s]));
-            const double weight = options.micro_expression * random.normal();
+            const double weight = options.micro_expression * clipped(random.normal());
             for (std::size_t i = 0; i < vertices; ++i)
                 result.displacement_mm[i] += weight * subject.shape_displacements_mm[s][i];
         }
     }
+    // An eye asked to shut, as AU 43 does, ends shut however weakly the rest of the face goes along.
+    constexpr double shut = 0.9;
+    Contact contact;
+    for (const auto& part : expression.main_shapes) {
+        contact.left_eye_closed = contact.left_eye_closed || (part.shape == "eyeBlink_L" && part.weight >= shut);
+        contact.right_eye_closed = contact.right_eye_closed || (part.shape == "eyeBlink_R" && part.weight >= shut);
+    }
+    subject.model->settle(subject.resting_mm, contact, result.displacement_mm);
     result.vertices_mm.resize(vertices);
     for (std::size_t i = 0; i < vertices; ++i)
         result.vertices_mm[i] = subject.resting_mm[i] + result.displacement_mm[i];

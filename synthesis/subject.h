@@ -11,7 +11,9 @@
 namespace mimik::synthesis {
 
 /// How much people differ, and how much one person differs from one performance to the next. The defaults are the
-/// variances of the database on which the project's figures were measured; a score means nothing without them.
+/// variances of the database on which the project's figures were measured; a score means nothing without them. Every
+/// draw is clipped at 2 standard deviations (8 % less variance): beyond them the factors multiply to motions that no
+/// face makes.
 struct VarianceOptions {
     double identity = 1.0;           ///< standard deviations of every identity mode; 0: everybody has the mean face
     double amplitude_person = 0.10;  ///< log-normal factor on all of a person's expressions
@@ -40,6 +42,7 @@ struct Subject {
     double asymmetry = 0.0;
     double mouth_width_ratio = 1.0;                                     ///< to the model's mean face
     double eye_distance_ratio = 1.0;                                    ///< outer corners, to the model's mean face
+    const FaceModel* model = nullptr;                                   ///< drawn from it; must outlive the subject
     std::vector<std::string> shapes;                                    ///< sorted
     std::vector<std::vector<geometry::Vector>> shape_displacements_mm;  ///< at full strength, parallel to `shapes`
 };
