@@ -21,6 +21,10 @@ constexpr double depth_of_attachment = 0.75;
 constexpr double spread_mm = 4.0;
 constexpr int spread_rounds = 2;  ///< of smoothing along columns and rows in turn
 
+/// How much of a pull reaches skin at `s`: the side of the face is held by the bone under it, and a cheek that is
+/// carried past where the face turns would hang over it.
+double on_front(double s) { return 1 - smooth_step(48, 84, std::abs(s)); }
+
 /// What lies between skin and bone, mm: rounded after the tallied depths of Stephan and Simpson (2008). Nothing on lids
 /// and lips' red, whose motion the sphincters describe.
 double tissue_depth_mm(const SheetVertex& p) {
@@ -30,14 +34,14 @@ double tissue_depth_mm(const SheetVertex& p) {
         return bell(a - s, width) * bell(p.t - t, height);
     };
     double depth = 5.5 + 7 * smooth_step(-12, -40, p.t);
-    depth += 6 * patch(48, -58, 16, 24) + 2 * patch(70, -60, 16, 26) - 4.5 * patch(0, -64, 15, 7);
+    depth += 4 * patch(48, -58, 16, 24) + 2 * patch(70, -60, 16, 26) - 4.5 * patch(0, -64, 15, 7);
     depth *= 1 - 0.9 * patch(mouth_corner, stomion, 6, 5.5);  // the knot of muscles at the corner keeps its form
     depth += 4 * patch(36, 11, 17, 9);                        // the pad of fat that the brow rides on
     depth *= 1 - 0.75 * (1 - smooth_step(12, 21, a)) * smooth_step(-60, -52, p.t) * smooth_step(2, -12, p.t);  // nose
     depth *= 1 - plateau(p.v + 8, 7, 16) * hump(p.across_eye, 1.9);
     const double red = smooth_step(upper_lip + 2, upper_lip - 2, p.v) * smooth_step(lower_lip - 2, lower_lip + 2, p.v) *
                        (1 - smooth_step(mouth_corner - 5, mouth_corner + 2, a));
-    return depth * (1 - red);
+    return depth * (1 - red) * on_front(p.s);
 }
 
 /// The line with its corners cut (Chaikin), so that a furrow bends like skin.
@@ -131,7 +135,7 @@ void MuscleModel::pull(const Muscle& muscle, double side, std::span<const Point>
         const double along = (u * ds + v * dt) / length, across = (u * dt - v * ds) / length;
         const double r = std::hypot(along / (along > 0 ? muscle.ahead_mm : muscle.behind_mm), across / muscle.side_mm);
         if (r >= 1) continue;
-        const double share = lip_share(i, muscle.lip), along_skin = share * hump(r, 1);
+        const double share = lip_share(i, muscle.lip) * on_front(p.s), along_skin = share * hump(r, 1);
         const double across_skin = share * hump(r, depth_of_attachment) * normal_pull;
         const double lifted = along_skin * pull_mm.dot(normals_[i]) - across_skin;
         moved[i] += along_skin * pull_mm - slide_over_bone * lifted * normals_[i];
@@ -140,7 +144,7 @@ void MuscleModel::pull(const Muscle& muscle, double side, std::span<const Point>
 
 /// Soft tissue keeps its volume: where a pull crowds the skin it rises, where it stretches the skin it thins.
 void MuscleModel::gather(std::span<const Point> neutral_mm, std::vector<Vector>& moved) const {
-    constexpr double most_crowded = 0.5, most_stretched = -0.4;
+    constexpr double most_crowded = 0.35, most_stretched = -0.4;
     std::vector<double> before(moved.size(), 0), after(moved.size(), 0);
     for (const auto& t : triangles_) {
         if (moved[t[0]].isZero() && moved[t[1]].isZero() && moved[t[2]].isZero()) continue;
@@ -356,7 +360,8 @@ std::vector<Vector> MuscleModel::displacement_mm(const Motion& motion, std::span
 /// smoothed along the sheet until it has not. Lips and lids do turn in; they are left alone.
 void MuscleModel::unfold(std::span<const Point> neutral_mm, std::vector<Vector>& moved) const {
     constexpr int rounds = 12;
-    constexpr double least_cosine = 0.35;  // of the angle by which skin turns: 70 degrees is a fold
+    constexpr double least_cosine = 0.45;  // of the angle by which skin turns: 63 degrees is a fold
+    constexpr double front = 66;           // mm from the midline: here nothing may turn from the scanner
     const auto free = [&](std::uint32_t i) {
         const auto& p = sheet_.vertices[i];
         const double a = std::abs(p.s);
@@ -371,7 +376,8 @@ void MuscleModel::unfold(std::span<const Point> neutral_mm, std::vector<Vector>&
             const Point &a = neutral_mm[t[0]], &b = neutral_mm[t[1]], &c = neutral_mm[t[2]];
             const Vector was = (b - a).cross(c - a);
             const Vector is = (b - a + moved[t[1]] - moved[t[0]]).cross(c - a + moved[t[2]] - moved[t[0]]);
-            if (is.dot(was) >= least_cosine * is.norm() * was.norm() || !free(t[0])) continue;
+            const bool away = is.z() <= 0 && was.z() > 0 && std::abs(sheet_.vertices[t[0]].s) < front;
+            if ((!away && is.dot(was) >= least_cosine * is.norm() * was.norm()) || !free(t[0])) continue;
             any = true;
             for (const auto i : t) folded[i] = 1;
         }

@@ -53,17 +53,19 @@ struct NoseSection {
     double half_width, shoulder;
 };
 NoseSection nose_section(double t) {
+    // Nearly a bell of deviation w / sqrt(2 shoulder), about 0.6 of its height: walls of 45 degrees from a narrow root
+    // (5 mm) to a broad tip (9 mm).
     static const MonotoneCurve width({-60, -55.3, -53, -50.5, -48.5, -46, -43, -34, -20, -9, 0, 8, 16},
-                                     {24, 15, 9, 9.5, 12, 14.5, 16, 20, 23, 21.5, 20.5, 21, 22});
+                                     {24, 15, 9, 9.5, 12.5, 15.5, 18, 21, 22.5, 21.5, 20.5, 21, 22});
     static const MonotoneCurve shoulder({-50, -46, -43, -37, -30, -22, -9, 0, 10, 26, 90},
-                                        {1.6, 2.0, 2.4, 3.2, 5.5, 8.2, 9.0, 7.5, 4.4, 2.2, 2});
+                                        {1.6, 1.9, 2.3, 2.6, 3.0, 4.2, 7.5, 7.8, 4.6, 2.2, 2});
     return {width(t), shoulder(t)};
 }
 
 double compact(double q, double shoulder) { return q * q >= 1 ? 0 : std::pow(1 - q * q, shoulder); }
 
 /// As compact, but flatter in the middle: the back of a nose is a strip, not an edge.
-double ridge_section(double q, double shoulder) { return q >= 1 ? 0 : std::pow(1 - std::pow(q, 2.4), shoulder); }
+double ridge_section(double q, double shoulder) { return q >= 1 ? 0 : std::pow(1 - std::pow(q, 2.1), shoulder); }
 
 /// How far the relief of the midline over the muzzle reaches sideways on the lower face: lips, sulcus, chin.
 double relief_section(double a, double v, double chin_reach) {
@@ -267,14 +269,14 @@ private:
         }
         // The wing: an ellipsoid beside the tip, cut off steeply where it meets the cheek.
         const double wing_t = -45.8 + 0.7 * face_[Form::wing_height];
-        const double q = std::hypot((a - 11.2) / 6.3, (t - wing_t) / (t > wing_t ? 7.2 : 5.6));
+        const double q = std::hypot((a - 11.2) / 6.3, (t - wing_t) / (t > wing_t ? 8.4 : 5.6));
         if (q < 1) {
-            const double wing_z = z - 2.5 + 12.8 * std::pow(1 - q * q, 0.6);
-            ridge = smooth_max(ridge, wing_z, 5.0);
+            const double wing_z = z - 2.5 + 12.0 * std::pow(1 - q * q, 0.7);
+            ridge = smooth_max(ridge, wing_z, 7.0);
         }
         // Alar crease, and the nostril.
-        const double crease = std::hypot((a - 11.4) / 7.3, (t - wing_t) / (t > wing_t ? 8.6 : 6.6));
-        ridge -= 0.5 * bell(crease - 0.98, 0.17) * smooth_step(11, 16, a) * smooth_step(-54, -50, t) *
+        const double crease = std::hypot((a - 11.4) / 7.3, (t - wing_t) / (t > wing_t ? 9.8 : 6.6));
+        ridge -= 0.4 * bell(crease - 0.98, 0.17) * smooth_step(11, 16, a) * smooth_step(-54, -50, t) *
                  smooth_step(-37, -43, t);
         const double hole = std::hypot((a - 6.9) / 3.2, (t + 51.7) / 1.9);
         ridge -= 5.0 * (1 - smooth_step(0.35, 1.25, hole));

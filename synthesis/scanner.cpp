@@ -98,6 +98,53 @@ void add_stray_parts(geometry::RangeScan& scan, const RasterLattice& lattice, Ra
     }
 }
 
+/// Drops what a jaw parts from the face: in the lattice rows below `below_y_mm`, neck that is not reached from the
+/// chin's column without a gap or a step in depth. Returns how many points.
+std::size_t trim_neck(geometry::RangeScan& scan, const RasterLattice& lattice, double below_y_mm, const Point& chin) {
+    constexpr double joined_mm = 6;  // in depth, between neighbours: a surface turned by 80 degrees
+    constexpr int widest_gap = 3;    // cells
+    const int middle = std::clamp(static_cast<int>((chin.x() - lattice.x0_mm) / lattice.spacing_mm), 0, scan.cols - 1);
+    const int rows = std::clamp(static_cast<int>((below_y_mm - lattice.y0_mm) / lattice.spacing_mm), 0, scan.rows);
+    std::size_t dropped = 0;
+    double last_middle_z = chin.z();
+    bool below_chin = false;
+    for (int row = rows; row-- > 0;) {
+        const auto at = [&](int col) {
+            return static_cast<std::size_t>(row) * static_cast<std::size_t>(scan.cols) + static_cast<std::size_t>(col);
+        };
+        // Once the middle column is behind the chin, all that follows is neck.
+        if (lattice.y0_mm + row * lattice.spacing_mm > chin.y())
+            last_middle_z = chin.z();
+        else if (!scan.valid(at(middle)))
+            below_chin = true;
+        else if (last_middle_z - scan.points_mm[at(middle)].z() > joined_mm)
+            below_chin = true;
+        else
+            last_middle_z = scan.points_mm[at(middle)].z();
+        for (const int step : {-1, 1}) {
+            bool parted = below_chin;
+            int gap = 0;
+            double z = std::numeric_limits<double>::quiet_NaN();
+            for (int col = step < 0 ? middle - 1 : middle; col >= 0 && col < scan.cols; col += step) {
+                auto& point = scan.points_mm[at(col)];
+                if (!scan.valid(at(col))) {
+                    parted = parted || ++gap > widest_gap;
+                    continue;
+                }
+                parted = parted || std::abs(z - point.z()) > joined_mm;  // never with the first, whose z is NaN
+                if (!parted) {
+                    z = point.z();
+                    gap = 0;
+                    continue;
+                }
+                point = Point::Constant(std::numeric_limits<double>::quiet_NaN());
+                ++dropped;
+            }
+        }
+    }
+    return dropped;
+}
+
 geometry::Landmarks mark(const geometry::RangeScan& scan, const geometry::Landmarks& truth,
                          const std::map<std::string, Vector>& normals, const std::string& scan_name, std::uint64_t seed,
                          double scale) {
@@ -268,6 +315,9 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
         scan.points_mm[i] = measured;
         ++result.valid_points;
     }
+    const auto& marks = model.landmark_vertices();
+    result.valid_points -=
+        trim_neck(scan, lattice, vertices[marks.at("lower_lip_outer")].y(), vertices[marks.at("chin")]);
     // Marked on the clean scan: nobody puts a mark on a spike or on a piece of cloth.
     result.landmarks = mark(scan, result.true_landmarks, landmark_normals, scan_name, seed, options.marking_jitter);
     add_spikes(scan, RandomStream(seed, scan_name + "/spikes"), options.spikes);

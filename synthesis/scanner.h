@@ -12,7 +12,7 @@ namespace mimik::synthesis {
 
 /// The synthetic scanner: a structured-light range camera in front of the face, and the person who marks landmarks.
 struct ScannerOptions {
-    double spacing_mm = 0.82;            ///< of the lattice in x and y
+    double spacing_mm = 0.77;            ///< of the lattice in x and y
     double noise_z_mm = 0.13;            ///< standard deviation, independent per point
     double smooth_noise_z_mm = 0.05;     ///< standard deviation of a smooth error
     double smooth_noise_length_mm = 6;   ///< its correlation length: a few fringe widths

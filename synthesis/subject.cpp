@@ -21,6 +21,9 @@ double landmark_distance(const FaceModel& model, const std::vector<Point>& face,
     return (face[marks.at(a)] - face[marks.at(b)]).norm();
 }
 
+/// Full strength is 1; nobody goes far past it, however the factors multiply.
+constexpr double most_motion = 1.2;
+
 /// As many deviations as a face can follow (VarianceOptions).
 double clipped(double standard_normal) { return std::clamp(standard_normal, -2.0, 2.0); }
 /// Median 1, `deviation` in natural logarithms (0.15 is close to 15 %).
@@ -135,7 +138,7 @@ Performance perform(const Subject& subject, const Expression& expression, const 
     };
     for (const auto& [shape, weight] : result.weights) {
         const double ratio = upper_face(shape) ? subject.eye_distance_ratio : subject.mouth_width_ratio;
-        const double scaled = weight * (1.0 + options.size_coupling * (ratio - 1.0));
+        const double scaled = std::min(most_motion, weight * (1.0 + options.size_coupling * (ratio - 1.0)));
         const auto& full = displacements(shape);
         for (std::size_t i = 0; i < vertices; ++i) result.displacement_mm[i] += scaled * full[i];
     }

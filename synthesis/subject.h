@@ -12,8 +12,8 @@ namespace mimik::synthesis {
 
 /// How much people differ, and how much one person differs from one performance to the next. The defaults are the
 /// variances of the database on which the project's figures were measured; a score means nothing without them. Every
-/// draw is clipped at 2 standard deviations (8 % less variance): beyond them the factors multiply to motions that no
-/// face makes.
+/// draw is clipped at 2 standard deviations (8 % less variance), and no weight exceeds 1.2: beyond, the factors
+/// multiply to motions that no face makes.
 struct VarianceOptions {
     double identity = 1.0;           ///< standard deviations of every identity mode; 0: everybody has the mean face
     double amplitude_person = 0.10;  ///< log-normal factor on all of a person's expressions
