@@ -205,26 +205,26 @@ TEST(BuiltinFace, shapes_move_the_landmarks_that_their_muscles_hold) {
         const char *shape, *landmark;
         double lateral, up, forward, tolerance;
     };
-    // Landmark motions of artist-made rigs at weight 1; within 1.5 mm (a tenth of a smile), more where stated.
+    // Landmark motions of artist-made rigs at weight 1; within 2.4 mm (a seventh of a smile), more where stated.
     const std::vector<Expected> table = {
-        {"browInnerUp_L", "brow_inner_left", 0.5, 5.2, -0.4, 1.5},
-        {"browOuterUp_L", "brow_outer_left", 1.5, 6.6, -2.7, 1.5},
-        {"browDown_L", "brow_inner_left", -3.7, -3.4, 2.0, 1.7},
-        {"mouthSmile_L", "mouth_corner_left", 7.1, 10.5, -9.1, 1.5},
-        {"mouthFrown_L", "mouth_corner_left", 1.9, -4.6, -1.8, 1.5},
-        {"mouthStretch_L", "mouth_corner_left", 6.6, -3.1, -7.0, 1.5},
-        {"mouthDimple_L", "mouth_corner_left", 0.8, 2.7, -6.0, 1.5},
-        {"mouthPucker", "mouth_corner_left", -4.6, 2.2, 9.8, 2.9},
-        {"mouthShrugLower", "chin", 0, 8.1, 4.5, 2.5},
-        {"jawOpen", "chin", 0, -28.2, -29.1, 5.0},
-        {"jawForward", "chin", 0, -1.7, 11.0, 1.5},
-        {"jawLeft", "chin", 8.9, 0, 0, 1.5},
-        {"jawRight", "chin", -8.9, 0, 0, 1.5},
+        {"browInnerUp_L", "brow_inner_left", 0.5, 5.2, -0.4, 2.4},
+        {"browOuterUp_L", "brow_outer_left", 1.5, 6.6, -2.7, 2.4},
+        {"browDown_L", "brow_inner_left", -3.7, -3.4, 2.0, 2.7},
+        {"mouthSmile_L", "mouth_corner_left", 7.1, 10.5, -9.1, 2.4},
+        {"mouthFrown_L", "mouth_corner_left", 1.9, -4.6, -1.8, 2.4},
+        {"mouthStretch_L", "mouth_corner_left", 6.6, -3.1, -7.0, 2.4},
+        {"mouthDimple_L", "mouth_corner_left", 0.8, 2.7, -6.0, 2.4},
+        {"mouthPucker", "mouth_corner_left", -4.6, 2.2, 9.8, 4.6},
+        {"mouthShrugLower", "chin", 0, 8.1, 4.5, 4.0},
+        {"jawOpen", "chin", 0, -28.2, -29.1, 8.0},
+        {"jawForward", "chin", 0, -1.7, 11.0, 2.4},
+        {"jawLeft", "chin", 8.9, 0, 0, 2.4},
+        {"jawRight", "chin", -8.9, 0, 0, 2.4},
     };
     const auto id = mean_face(Sex::female);
     for (const auto& e : table) {
         const auto moved = model().shape_displacement_mm(id, e.shape)[model().landmark_vertices().at(e.landmark)];
-        EXPECT_LT((moved - Vector(e.lateral, e.up, e.forward)).norm(), 1.6 * e.tolerance)
+        EXPECT_LT((moved - Vector(e.lateral, e.up, e.forward)).norm(), e.tolerance)
             << e.shape << ": " << moved.transpose();
         EXPECT_GT(moved.normalized().dot(Vector(e.lateral, e.up, e.forward).normalized()), 0.85) << e.shape;
     }
