@@ -1,6 +1,6 @@
 #include "evaluation/case_score.h"
 
-#include <algorithm>
+#include "geometry/errors.h"
 
 namespace mimik::evaluation {
 
@@ -72,7 +72,10 @@ CaseResult judge_case(const ScoredTarget& target, const std::vector<Point>& anim
             true_nothing += target.true_displacement_mm[k].norm();
         }
     }
-    const auto count = static_cast<double>(std::max<std::size_t>(1, zone_count));
+    if (zone_count == 0)
+        throw NumericalError(
+            "no vertex of the active zone sees the real expressive scan: it does not lie on the neutral face there");
+    const auto count = static_cast<double>(zone_count);
     result.zone_mm = zone / count;
     result.zone_nothing_mm = zone_nothing / count;
     if (whole_face && !asked.empty()) {

@@ -57,6 +57,7 @@ struct Score {
 /// @param animated_mm      one per vertex of the target's grid, scanner frame; NaN: no answer
 /// @param displacement_mm  the same, from the neutral face
 /// @param grid             the neutral face
+/// @throws NumericalError if no scored vertex is in the zone: 0 mm against 0 mm would be no score.
 [[nodiscard]] CaseResult judge_case(const ScoredTarget& target, const std::vector<geometry::Point>& animated_mm,
                                     const std::vector<geometry::Vector>& displacement_mm,
                                     const geometry::QuadGrid& grid, bool whole_face);

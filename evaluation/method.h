@@ -7,7 +7,7 @@
 
 namespace mimik::evaluation {
 
-/// Three kinds of row, never mixed (what a method may know beside the target's neutral face).
+/// Two kinds of row, never mixed (what a method may know beside the target's neutral face).
 enum class RowKind {
     one_source,  ///< one other subject's neutral and expression, nothing else
     mean,        ///< every subject but the target

@@ -177,10 +177,12 @@ private:
 
 TargetCases score_target(const PerformanceReader& reader, const ExpressionCast& cast, std::size_t t,
                          const CaseChoice& choice, FailureList& failures) {
-    TargetCases cases;
-    cases.methods.resize(choice.methods.size());
+    const TargetCases none{.methods = std::vector<std::vector<CaseResult>>(choice.methods.size()),
+                           .true_field = {},
+                           .true_field_mean = {}};
     const auto shared = models_shared_by(choice.methods);
     try {
+        auto cases = none;
         TargetRun run(reader, cast, t, choice, failures);
         for (std::size_t m = 0; m < choice.methods.size(); ++m) {
             const auto& method = choice.methods[m];
@@ -188,11 +190,12 @@ TargetCases score_target(const PerformanceReader& reader, const ExpressionCast& 
                 method.kind == RowKind::mean ? run.mean(method, shared[m]) : run.one_source(method, shared[m]);
         }
         if (choice.true_fields) run.true_fields(cases);
+        return cases;
     } catch (const std::exception& e) {
         failures.add(
             fmt::format("{}: no case with target {}: {}", cast.expression, cast.participants[t].id.subject, e.what()));
+        return none;
     }
-    return cases;
 }
 
 void score_in_order(std::size_t count, const std::function<TargetCases(std::size_t)>& score,

@@ -26,7 +26,7 @@ struct CaseChoice {
 
 /// Scores target t of the cast with all its sources. Holds one performance and what is prepared from it, whatever the
 /// number of sources. A method that gives no answer counts as doing nothing and is added to `failures`; what keeps the
-/// target itself from being scored is added too, and the cases until then remain.
+/// target itself from being scored is added too, and it has no case in any row: rows stay comparable.
 [[nodiscard]] TargetCases score_target(const PerformanceReader& reader, const ExpressionCast& cast, std::size_t t,
                                        const CaseChoice& choice, FailureList& failures);
 
