@@ -37,7 +37,7 @@ fs::path face_stem(const fs::path& root, const ScanId& id) { return root / "face
 fs::path average_stem(const fs::path& root) { return root / "average" / "average_face"; }
 
 /// Part of every fingerprint: raise it when the steps give other numbers for the same scan and options.
-constexpr int steps_version = 1;
+constexpr int steps_version = 2;
 
 std::string describe(const PreprocessOptions& o) {
     return fmt::format("steps {} clean {} {} {} grid {} {} edge {} {} lattice {} icp {} {} {} {} {} {}", steps_version,
@@ -61,7 +61,11 @@ std::string stamp(const fs::path& file) {
     return error ? "absent" : fmt::format("{} {}", size, time.time_since_epoch().count());
 }
 
-std::string stamp(const ScanEntry& entry) { return stamp(entry.scan_file) + " " + stamp(entry.landmarks_file); }
+/// Everything that a face takes from an entry: its two files, and what a manifest says of them.
+std::string stamp(const ScanEntry& entry) {
+    return fmt::format("{} {} unit {} sex '{}' texture '{}'", stamp(entry.scan_file), stamp(entry.landmarks_file),
+                       static_cast<int>(entry.unit), entry.sex, entry.texture_file.string());
+}
 
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
 
@@ -407,6 +411,7 @@ private:
         const nlohmann::json document = {{"schema", 1},
                                          {"kind", "mimik workspace"},
                                          {"database", fs::absolute(database_.root).lexically_normal().string()},
+                                         {"truth", fs::exists(database_.root / "truth" / "truth.json")},
                                          {"options", describe(options_)},
                                          {"scans", names},
                                          {"failures", failures},
@@ -429,10 +434,33 @@ private:
 
 }  // namespace
 
+void check_workspace_place(const database::ScanDatabase& database, const fs::path& root) {
+    const auto place = [](const fs::path& path) {
+        auto canonical = fs::weakly_canonical(fs::absolute(path));
+        return canonical.has_filename() ? canonical : canonical.parent_path();  // "folder/" is "folder"
+    };
+    const auto inside = [](const fs::path& inner, const fs::path& outer) {
+        return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+    };
+    const auto output = place(root), home = place(database.root);
+    std::set<fs::path> folders = {database.root, database.root / "truth"};
+    for (const auto& entry : database.scans) folders.insert(entry.scan_file.parent_path());
+    for (const auto& folder : folders) {
+        const auto taken = place(folder);
+        // Beside the subjects' folders there may be a workspace; scans that lie elsewhere have folders of their own.
+        if (output != taken && !(taken != home && inside(taken, home) && inside(output, taken))) continue;
+        throw InputError(
+            fmt::format("{}: holds scans of the database {}, into which nothing is written; give another "
+                        "folder for the workspace",
+                        root.string(), database.root.string()));
+    }
+}
+
 PreprocessReport preprocess_database(const database::ScanDatabase& database, const fs::path& root,
                                      const PreprocessOptions& options, const StableRegion& stable_region,
                                      const std::function<void(const std::string&)>& progress) {
     options.check();
+    check_workspace_place(database, root);
     return DatabaseRun(database, root, options, stable_region, progress).run();
 }
 
@@ -471,6 +499,7 @@ Workspace::Workspace(fs::path root) : root_(std::move(root)) {
                         root_.string(), root_.string()));
     from_json_file<int>(file, [&](const nlohmann::json& document) {
         database_root_ = document.at("database").get<std::string>();
+        made_with_truth_ = document.value("truth", false);
         hidden_subjects_ = document.at("hidden_subjects").get<std::vector<std::string>>();
         for (const auto& name : document.at("scans")) {
             const auto id = database::parse_scan_name(name.get<std::string>());

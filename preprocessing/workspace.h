@@ -54,7 +54,7 @@ struct PreprocessReport {
 };
 
 /// A folder of preprocessed faces:
-///   workspace.json               database, options, list of faces, hidden subjects (schema 1)
+///   workspace.json               database, whether it has a truth, options, list of faces, hidden subjects (schema 1)
 ///   average/average_face.{ply,json}
 ///   faces/bs000/bs000_N_N_0.{ply,json}
 class Workspace {
@@ -64,6 +64,8 @@ public:
 
     [[nodiscard]] const std::filesystem::path& root() const { return root_; }
     [[nodiscard]] const std::filesystem::path& database_root() const { return database_root_; }
+    /// Whether the database had a truth (truth/truth.json) when the workspace was made.
+    [[nodiscard]] bool made_with_truth() const { return made_with_truth_; }
     [[nodiscard]] const AverageFace& average() const { return average_; }
     [[nodiscard]] const std::vector<database::ScanId>& scans() const { return scans_; }
     [[nodiscard]] std::vector<std::string> subjects() const;
@@ -81,17 +83,23 @@ public:
 
 private:
     std::filesystem::path root_, database_root_;
+    bool made_with_truth_ = false;
     AverageFace average_;
     std::vector<database::ScanId> scans_;
     std::vector<std::string> hidden_subjects_;
 };
+
+/// @throws InputError if `root` is the database's folder, or a subject's or the truth's or inside one: a database is
+/// never written into.
+void check_workspace_place(const database::ScanDatabase& database, const std::filesystem::path& root);
 
 /// Preprocesses a whole database, in parallel over subjects, one scan in memory per thread. What an earlier run
 /// finished with the same options on the same file is not done again; a face that was deleted or damaged since is. From
 /// the first face that a run writes to its end there is no workspace.json, so that nobody takes a half-made folder for
 /// a finished one. A scan that fails is reported and the rest goes on.
 /// @param progress  called once per scan, from any thread; may be empty.
-/// @throws InputError for bad options, an empty selection, or fewer than two subjects with a usable neutral.
+/// @throws InputError for bad options, a `root` in the database, an empty selection, or fewer than two subjects with a
+/// usable neutral.
 PreprocessReport preprocess_database(const database::ScanDatabase& database, const std::filesystem::path& root,
                                      const PreprocessOptions& options = {}, const StableRegion& stable_region = {},
                                      const std::function<void(const std::string& scan)>& progress = {});

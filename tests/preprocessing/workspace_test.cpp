@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <fstream>
+#include <functional>
 #include <map>
 
 #include <gmock/gmock.h>
@@ -117,6 +118,49 @@ TEST_F(WorkspaceTest, another_option_or_another_scan_is_preprocessed_anew) {
     const auto report = preprocess(options);
     EXPECT_EQ(report.preprocessed, 1U);
     EXPECT_EQ(report.up_to_date, 5U);
+}
+
+TEST_F(WorkspaceTest, what_a_manifest_says_of_a_scan_belongs_to_what_its_face_was_made_from) {
+    const auto as_it_is = database::open_database(database_);
+    const auto id = *database::parse_scan_name("bs001_LFAU_12_0");
+    const auto run_with = [&](const std::function<void(database::ScanEntry&)>& correct) {
+        auto database = as_it_is;
+        for (auto& entry : database.scans)
+            if (entry.id == id) correct(entry);
+        return preprocess_database(database, workspace_, quick());
+    };
+    const std::function<void(database::ScanEntry&)> corrections[] = {
+        [](database::ScanEntry& entry) { entry.unit = geometry::LengthUnit::metre; },
+        [](database::ScanEntry& entry) { entry.sex = "f"; },
+        [](database::ScanEntry& entry) { entry.texture_file = "other.png"; }};
+    (void)preprocess();
+    for (const auto& correct : corrections) {
+        const auto report = run_with(correct);
+        EXPECT_EQ(report.preprocessed + report.failures.size(), 1U);  // done anew, whether it can be used or not
+        EXPECT_EQ(report.up_to_date, 5U);
+        (void)preprocess();
+    }
+}
+
+TEST_F(WorkspaceTest, a_database_is_never_written_into_but_a_folder_of_its_own_beside_the_subjects_will_do) {
+    const auto database = database::open_database(database_);
+    const auto before = contents(database_);
+    for (const auto& place : {database_, database_ / "", database_ / "x" / "..", database_ / "bs001",
+                              database_ / "bs001" / "work", database_ / "truth" / "work"})
+        EXPECT_THAT(message_of<InputError>([&] { (void)preprocess_database(database, place, quick()); }),
+                    HasSubstr("into which nothing is written"))
+            << place;
+    EXPECT_EQ(contents(database_), before);
+    check_workspace_place(database, database_ / "work");
+    check_workspace_place(database, folder_.path() / "db2");
+}
+
+TEST_F(WorkspaceTest, a_workspace_knows_whether_its_database_had_a_truth) {
+    (void)preprocess();
+    EXPECT_FALSE(Workspace(workspace_).made_with_truth());
+    geometry::write_atomically(database_ / "truth" / "truth.json", "{}");
+    (void)preprocess();
+    EXPECT_TRUE(Workspace(workspace_).made_with_truth());
 }
 
 TEST_F(WorkspaceTest, a_run_that_ends_half_way_leaves_no_workspace_and_the_next_one_goes_on) {
