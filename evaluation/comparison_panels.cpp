@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -126,7 +127,9 @@ geometry::VertexAttribute distance_attribute(const ScoredTarget& scored, const s
 /// A description being made: the files of the panels go beside it.
 class FigureFolder {
 public:
-    FigureFolder(fs::path folder, const ComparisonRequest& request) : folder_(std::move(folder)), request_(request) {}
+    FigureFolder(fs::path folder, const ComparisonRequest& request) : folder_(std::move(folder)), request_(request) {
+        remove_earlier();
+    }
 
     [[nodiscard]] fs::path file(const std::string& name) const { return folder_ / name; }
     /// A panel that shows `mesh` with its middle at `centre_mm`.
@@ -162,12 +165,55 @@ public:
     [[nodiscard]] std::size_t panels() const { return panels_.size(); }
 
 private:
-    static std::string letter(std::size_t k) { return std::string(1, static_cast<char>('a' + k)); }
+    /// a ... z, aa, ab, ...
+    static std::string letter(std::size_t k) {
+        const std::string last(1, static_cast<char>('a' + k % 26));
+        return k < 26 ? last : letter(k / 26 - 1) + last;
+    }
+    /// Files of an earlier figure there: only what its description names, and what lies in the folder itself.
+    void remove_earlier() const {
+        std::error_code ignored;
+        if (!fs::is_regular_file(file(description_file), ignored)) return;
+        const auto remove = [&](const Json& name) {
+            if (name.is_string() && fs::path(name.get<std::string>()).filename() == name.get<std::string>())
+                fs::remove(file(name.get<std::string>()), ignored);
+        };
+        try {
+            const auto earlier = Json::parse(geometry::read_text(file(description_file)));
+            for (const auto& panel : earlier.at("panels")) {
+                for (const char* key : {"mesh", "landmarks", "controls"})
+                    if (panel.contains(key)) remove(panel.at(key));
+                if (!panel.contains("markers")) continue;
+                for (const auto& markers : panel.at("markers")) remove(markers.at("file"));
+            }
+        } catch (const std::exception&) {
+            return;  // somebody else's: what it names is not known
+        }
+        fs::remove(file(description_file), ignored);
+    }
 
     fs::path folder_;
     const ComparisonRequest& request_;
     std::vector<Json> panels_;
 };
+
+/// What makes another picture of the same people by the same method, each in a word: "_r2logr_no-anchors_left_bridged".
+std::string variant_suffix(const ComparisonRequest& request) {
+    const auto usual = method_by_name(request.method.name == "thesis" ? "thesis" : "default");
+    std::string suffix;
+    if (request.method.model.kernel != usual.model.kernel)
+        suffix += request.method.model.kernel == geometry::SplineKernel::r ? "_r" : "_r2logr";
+    if (request.method.model.anchors != usual.model.anchors)
+        suffix += request.method.model.anchors ? "_anchors" : "_no-anchors";
+    if (request.view != ComparisonRequest{}.view) suffix += "_" + request.view;
+    if (request.bridged == geometry::BridgedVertices::keep) suffix += "_bridged";
+    return suffix;
+}
+
+/// Mesh of a series; a magnitude that reads the same has the same file.
+std::string series_mesh(const std::string& expression, double magnitude) {
+    return fmt::format("{}_m{:g}.ply", expression, magnitude);
+}
 
 std::string expression_words(const FacsCatalogue& catalogue, const std::string& expression) {
     const auto units = catalogue.resolve(expression);
@@ -236,6 +282,11 @@ void compare(Person& person, const Workspace& workspace, const ActiveZone& zone)
             fmt::format("{} does not lie on {}: nothing of the neutral face sees it; 'mimik preprocess "
                         "--sheets' shows how it was aligned",
                         person.real->id.name(), person.neutral.id.name()));
+    if (std::find(person.scored->in_zone.begin(), person.scored->in_zone.end(), 1) == person.scored->in_zone.end())
+        throw InputError(
+            fmt::format("{} does not lie on {} where the expression is: nothing of its zone sees it; 'mimik preprocess "
+                        "--sheets' shows how it was aligned",
+                        person.real->id.name(), person.neutral.id.name()));
     person.compared = {person.neutral.id.subject, judge_case(*person.scored, person.animated.grid.vertices_mm,
                                                              person.animated.displacement_mm, grid, true)};
 }
@@ -253,17 +304,17 @@ double ComparedPerson::explained() const {
 
 std::string comparison_name(const FacsCatalogue& catalogue, const ComparisonRequest& request) {
     const double m = request.method.magnitude;
-    return fmt::format("{}_{}{}_on_{}_{}", modeling::expression_name(catalogue, request.expression),
+    return fmt::format("{}_{}{}_on_{}_{}{}", modeling::expression_name(catalogue, request.expression),
                        m == 1.0 ? std::string() : fmt::format("m{:g}_", m), request.source, request.target,
-                       request.method.name);
+                       request.method.name, variant_suffix(request));
 }
 
 std::string series_name(const FacsCatalogue& catalogue, const ComparisonRequest& request,
                         std::span<const std::string> expressions) {
     std::vector<std::string> names;
     for (const auto& expression : expressions) names.push_back(modeling::expression_name(catalogue, expression));
-    return fmt::format("{}_series_{}_on_{}_{}", fmt::join(names, "_"), request.source, request.target,
-                       request.method.name);
+    return fmt::format("{}_series_{}_on_{}_{}{}", fmt::join(names, "_"), request.source, request.target,
+                       request.method.name, variant_suffix(request));
 }
 
 ComparedScans compared_scans(const Workspace& workspace, const FacsCatalogue& catalogue,
@@ -358,7 +409,14 @@ ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCa
         throw InputError(fmt::format("a series of {} expressions at {} magnitudes; give one or more of each",
                                      expressions.size(), magnitudes.size()));
     auto each = request;
+    std::set<std::string> meshes;
     for (const auto& expression : expressions) {
+        for (const double magnitude : magnitudes)
+            if (!meshes.insert(series_mesh(modeling::expression_name(catalogue, expression), magnitude)).second)
+                throw InputError(
+                    fmt::format("expression '{}' at magnitude {} stands twice in the series, or as near "
+                                "as makes no difference; give each once",
+                                expression, magnitude));
         each.expression = expression;
         (void)compared_scans(workspace, catalogue, each);
     }
@@ -376,7 +434,7 @@ ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCa
         for (const double magnitude : magnitudes) {
             const auto animated = animated_face(face, model, request.method, magnitude);
             add_remarks(figure.remarks, animated.remarks);
-            const auto name = fmt::format("{}_m{:g}.ply", model.expression, magnitude);
+            const auto name = series_mesh(model.expression, magnitude);
             geometry::write_mesh(out.file(name), animation::to_mesh(animated, face, {.bridged = request.bridged}));
             out.add_panel(name, fmt::format("{}, m = {:g}", model.expression, magnitude), centre_mm);
         }

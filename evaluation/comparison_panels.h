@@ -40,7 +40,9 @@ struct ComparisonFigure {
     std::vector<std::string> remarks;    ///< what is left out, and why
 };
 
-/// File name without extension: "AU12_bs003_on_bs007_default"; a magnitude other than 1 as "AU12_m0.5_...".
+/// File name without extension: "AU12_bs003_on_bs007_default"; a magnitude other than 1 as "AU12_m0.5_...";
+/// what differs from the method and from the front view as "..._r2logr_no-anchors_left_bridged". Another catalogue is
+/// not told.
 [[nodiscard]] std::string comparison_name(const modeling::FacsCatalogue& catalogue, const ComparisonRequest& request);
 /// "AU4_AU12_series_mean_on_bs007_default".
 [[nodiscard]] std::string series_name(const modeling::FacsCatalogue& catalogue, const ComparisonRequest& request,
@@ -60,7 +62,8 @@ struct ComparedScans {
 /// animated face and of doing nothing. All files of a person are in the scanner frame of that person's neutral scan,
 /// mm, and all panels of a person are centred on one point. The colours go from 0 to the 99th percentile of doing
 /// nothing (of both people, the greater). Grey: not measured by one of the two scans. A mean has the average face
-/// instead of a source, neutral and moved. Writes meshes, landmarks, controls and figure.json into `folder`.
+/// instead of a source, neutral and moved. Writes meshes, landmarks, controls and figure.json into `folder`; files
+/// that an earlier figure.json there names go first.
 /// @throws as compared_scans; NumericalError from the splines.
 [[nodiscard]] ComparisonFigure write_comparison_panels(const preprocessing::Workspace& workspace,
                                                        const modeling::FacsCatalogue& catalogue,
@@ -69,7 +72,8 @@ struct ComparedScans {
 
 /// Fig. 5-12: the target with each expression (a row) at each magnitude (a column), one frame and centre for all.
 /// `request.expression` and the method's magnitude are not used.
-/// @throws as write_comparison_panels; InputError if there is no expression or magnitude, or one is negative.
+/// @throws as write_comparison_panels; InputError if there is no expression or magnitude, one is negative, or one
+/// stands twice (to the six digits that its file name has).
 [[nodiscard]] ComparisonFigure write_magnitude_series(const preprocessing::Workspace& workspace,
                                                       const modeling::FacsCatalogue& catalogue,
                                                       const ComparisonRequest& request,

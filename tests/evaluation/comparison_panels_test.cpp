@@ -235,6 +235,68 @@ TEST_F(ComparisonPanels, a_series_has_a_row_per_expression_whose_displacements_g
     EXPECT_GT(largest, 3.0);  // the source's mouth corners move by 6 mm x 0.95
 }
 
+TEST_F(ComparisonPanels, more_panels_than_letters_go_on_with_two) {
+    std::vector<double> magnitudes;
+    for (int k = 0; k < 28; ++k) magnitudes.push_back(0.03 * k);
+    const std::vector<std::string> expressions = {"12"};
+    const auto list = description_of(write_magnitude_series(*workspace_, catalogue(), smile("bs000", "bs001"),
+                                                            expressions, magnitudes, out("letters")))
+                          .at("panels");
+    EXPECT_THAT(list[25].at("caption").get<std::string>(), testing::StartsWith("(z) "));
+    EXPECT_THAT(list[26].at("caption").get<std::string>(), testing::StartsWith("(aa) "));
+    EXPECT_THAT(list[27].at("caption").get<std::string>(), testing::StartsWith("(ab) "));
+}
+
+TEST_F(ComparisonPanels, what_differs_from_the_method_and_the_view_stands_in_the_name) {
+    const auto usual = smile("bs000", "bs001");
+    const std::string name = "AU12_bs000_on_bs001_default";
+    EXPECT_EQ(comparison_name(catalogue(), usual), name);
+    auto view = usual, kernel = usual, anchors = usual, bridged = usual;
+    view.view = "three-quarter-left";
+    kernel.method.model.kernel = kernel.method.animation.kernel = geometry::SplineKernel::r2_log_r2;
+    anchors.method.model.anchors = anchors.method.animation.anchors = false;
+    bridged.bridged = geometry::BridgedVertices::keep;
+    EXPECT_EQ(comparison_name(catalogue(), view), name + "_three-quarter-left");
+    EXPECT_EQ(comparison_name(catalogue(), kernel), name + "_r2logr");
+    EXPECT_EQ(comparison_name(catalogue(), anchors), name + "_no-anchors");
+    EXPECT_EQ(comparison_name(catalogue(), bridged), name + "_bridged");
+    EXPECT_EQ(series_name(catalogue(), view, std::vector<std::string>{"12"}),
+              "AU12_series_bs000_on_bs001_default_three-quarter-left");
+}
+
+TEST_F(ComparisonPanels, a_series_refuses_what_would_share_a_file_and_writes_nothing) {
+    const std::vector<std::string> one = {"12"}, twice = {"12", "12"};
+    const std::vector<double> near = {0.5, 0.5000001}, apart = {0.5, 1};
+    const auto series = [&](const std::vector<std::string>& expressions, const std::vector<double>& magnitudes) {
+        return message_of<InputError>([&] {
+            (void)write_magnitude_series(*workspace_, catalogue(), smile("bs000", "bs001"), expressions, magnitudes,
+                                         out("shared"));
+        });
+    };
+    EXPECT_THAT(series(one, near), HasSubstr("'12' at magnitude 0.5000001 stands twice"));
+    EXPECT_THAT(series(twice, apart), HasSubstr("'12' at magnitude 0.5 stands twice"));
+    EXPECT_FALSE(fs::exists(out("shared")));
+}
+
+TEST_F(ComparisonPanels, files_of_an_earlier_figure_go_and_what_it_does_not_name_stays) {
+    const std::vector<std::string> expressions = {"12"};
+    const auto series = [&](const std::vector<double>& magnitudes) {
+        (void)write_magnitude_series(*workspace_, catalogue(), smile("bs000", "bs001"), expressions, magnitudes,
+                                     out("again/figure"));
+    };
+    series({0.25, 1});
+    geometry::write_atomically(out("again/figure/AU12_mine.ply"), "mine");
+    geometry::write_atomically(out("again/other.ply"), "other");
+    auto description = json::parse(geometry::read_text(out("again/figure/figure.json")));
+    description["panels"][1]["controls"] = "../other.ply";
+    geometry::write_atomically(out("again/figure/figure.json"), description.dump());
+    series({0.5});
+    EXPECT_FALSE(fs::exists(out("again/figure/AU12_m0.25.ply")));
+    EXPECT_TRUE(fs::exists(out("again/figure/AU12_m0.5.ply")));
+    EXPECT_TRUE(fs::exists(out("again/figure/AU12_mine.ply")));
+    EXPECT_TRUE(fs::exists(out("again/other.ply")));
+}
+
 TEST_F(ComparisonPanels, what_cannot_be_shown_is_refused_by_name_before_any_file_is_written) {
     const auto refused = [&](const ComparisonRequest& request) {
         return message_of<InputError>([&] { (void)panels(request, "refused"); });
