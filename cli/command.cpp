@@ -1,9 +1,11 @@
 #include "cli/command.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <iostream>
 #include <mutex>
+#include <thread>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -16,6 +18,11 @@ namespace {
 std::mutex progress_mutex;
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 }  // namespace
+
+int working_threads() {
+    const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    return std::clamp(geometry::thread_count(), 1, cores);
+}
 
 void add_common_options(CLI::App& command, Common& common) {
     command.set_version_flag("--version", MIMIK_VERSION);

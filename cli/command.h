@@ -15,6 +15,10 @@ struct Common {
     int threads = 0;     ///< 0 = one per core
 };
 
+/// Threads that can work at the same time: what an estimate of time is divided by, however many --threads are asked
+/// for.
+[[nodiscard]] int working_threads();
+
 /// Adds --version, --json, --quiet, --threads to a command; the thread count is applied before its callback.
 void add_common_options(CLI::App& command, Common& common);
 

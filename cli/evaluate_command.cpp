@@ -10,7 +10,6 @@
 #include "evaluation/experiment.h"
 #include "evaluation/score_table.h"
 #include "geometry/file.h"
-#include "geometry/parallel.h"
 
 namespace mimik::cli {
 namespace {
@@ -32,10 +31,10 @@ int run(Arguments& arguments) {
     for (const auto& name : arguments.methods) options.methods.push_back(evaluation::method_by_name(name));
     options.reference = !arguments.no_reference;
     options.whole_face = !arguments.no_whole_face;
-    options.check();
+    evaluation::check_experiment(workspace, catalogue, options);
     if (arguments.dry_run) {
         const auto estimate = evaluation::estimate_experiment(workspace, options);
-        const double seconds = estimate.core_seconds / geometry::thread_count();
+        const double seconds = estimate.core_seconds / working_threads();
         if (arguments.common.json)
             std::cout << nlohmann::json{{"schema", 1},
                                         {"dry_run", true},
@@ -48,6 +47,13 @@ int run(Arguments& arguments) {
                                      seconds);
         return exit_done;
     }
+    const std::filesystem::path folder = arguments.output;
+    if (!arguments.output.empty()) {
+        // A folder that takes no file is found out before the work.
+        const auto probe = folder / "scores.probe";
+        geometry::write_atomically(probe, "");
+        std::filesystem::remove(probe);
+    }
     const std::size_t steps = evaluation::experiment_steps(workspace, options);
     evaluation::ExperimentReport report;
     {
@@ -56,13 +62,12 @@ int run(Arguments& arguments) {
                                             [&](const std::string& what) { progress.advance(what); });
     }
     const auto markdown = evaluation::to_markdown(report), json = evaluation::to_json(report);
+    std::cout << (arguments.common.json ? json : markdown) << std::flush;
     if (!arguments.output.empty()) {
-        const std::filesystem::path folder = arguments.output;
         geometry::write_atomically(folder / "scores.md", markdown);
         geometry::write_atomically(folder / "scores.csv", evaluation::to_csv(report));
         geometry::write_atomically(folder / "scores.json", json);
     }
-    std::cout << (arguments.common.json ? json : markdown);
     if (!arguments.common.json && !arguments.common.quiet) std::cerr << fmt::format("{:.1f} s\n", report.seconds);
     return report.failures.empty() ? exit_done : exit_done_with_failures;
 }

@@ -35,7 +35,7 @@ struct Planned {
 };
 
 // What a panel costs on one core and on disk, measured on 150 x 150 vertices (AMD EPYC at 2.6 GHz).
-constexpr double seconds_per_panel = 0.15, megabytes_per_panel = 2;
+constexpr double seconds_per_panel = 0.15, megabytes_per_panel = 0.9;
 
 /// What a dry run says of one picture: two people have at most five panels each.
 double panels_of(const Arguments& arguments, const Planned& planned) {

@@ -53,6 +53,20 @@ void ExperimentOptions::check() const {
     }
 }
 
+void check_experiment(const Workspace& workspace, const modeling::FacsCatalogue& catalogue,
+                      const ExperimentOptions& options) {
+    options.check();
+    const auto subjects = shown_subjects(workspace);
+    for (const auto& expression : options.expressions) {
+        (void)catalogue.resolve(expression);
+        const auto shown = scans_of(workspace, subjects, expression).size();
+        if (shown < 3)
+            throw InputError(fmt::format("{}: expression '{}': {} subjects show it; an experiment needs three or more",
+                                         workspace.root().string(), expression, shown));
+    }
+    (void)PerformanceReader(workspace);
+}
+
 ExperimentEstimate estimate_experiment(const Workspace& workspace, const ExperimentOptions& options) {
     // Processor time on an AMD EPYC at 2.6 GHz: 14 subjects of ICT-FaceKit, 150 x 150 vertices, AU 1, 12 and 17.
     constexpr double subject_s = 0.06;    // read three times, measured, made ready as a target
@@ -99,7 +113,6 @@ public:
 
     ExperimentReport run() {
         const auto start = std::chrono::steady_clock::now();
-        check_expressions();
         find_usable();
         for (const auto& expression : options_.expressions) score(expression);
         average_over_expressions();
@@ -112,18 +125,6 @@ private:
     [[nodiscard]] bool with_reference() const { return options_.reference && reader_.has_truth(); }
     void add_row(const std::string& name, RowKind kind, bool reference) {
         report_.rows.push_back({name, kind, reference, {}, 0, 0, 0, {}});
-    }
-
-    /// Found out before hours of work: an expression that too few show.
-    void check_expressions() const {
-        for (const auto& expression : options_.expressions) {
-            const auto shown = scans_of(workspace_, report_.subjects, expression).size();
-            if (shown < 3)
-                throw InputError(
-                    fmt::format("{}: expression '{}': {} subjects show it; an experiment needs three or "
-                                "more",
-                                workspace_.root().string(), expression, shown));
-        }
     }
 
     /// A neutral that cannot be used is reported once, not once per expression.
@@ -200,8 +201,7 @@ private:
 ExperimentReport run_experiment(const Workspace& workspace, const modeling::FacsCatalogue& catalogue,
                                 const ExperimentOptions& options,
                                 const std::function<void(const std::string&)>& progress) {
-    options.check();
-    for (const auto& code : options.expressions) (void)catalogue.resolve(code);
+    check_experiment(workspace, catalogue, options);
     return ExperimentRun(workspace, catalogue, options, progress).run();
 }
 

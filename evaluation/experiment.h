@@ -45,7 +45,8 @@ struct ExperimentReport {
 
 /// Scores methods on every ordered pair source -> target of a workspace, as docs/algorithms/scoring.md defines it.
 /// Subjects that must not be shown take part in no case. A case whose method gives no answer counts as doing nothing; a
-/// face that cannot be read takes part in no case; both are listed.
+/// face that cannot be read takes part in no case; a target whose zone does not see its expressive scan has no case in
+/// any row; all are listed.
 ///
 /// Memory: faces are read when they are needed, one subject's at a time per thread (about 30 MB), beside 128 MB of true
 /// fields and 40 MB for the medians at most, whatever the number of subjects and expressions. Only the models of one
@@ -55,6 +56,11 @@ struct ExperimentReport {
                                               const modeling::FacsCatalogue& catalogue,
                                               const ExperimentOptions& options = {},
                                               const std::function<void(const std::string&)>& progress = {});
+
+/// What run_experiment finds out before any work. @throws InputError for bad options, an expression that the catalogue
+/// lacks or that fewer than 3 subjects show, or a truth that is gone.
+void check_experiment(const preprocessing::Workspace& workspace, const modeling::FacsCatalogue& catalogue,
+                      const ExperimentOptions& options);
 
 /// What run_experiment would do: transfers (true fields included) and seconds on one core, from figures measured once.
 struct ExperimentEstimate {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
 #include "preprocessing/control_pairs.h"
 
 namespace mimik::evaluation {
@@ -10,8 +13,14 @@ namespace mimik::evaluation {
 using database::ScanId;
 
 PerformanceReader::PerformanceReader(const preprocessing::Workspace& workspace) : workspace_(workspace) {
-    if (std::filesystem::exists(workspace.database_root() / "truth" / "truth.json"))
+    const auto file = workspace.database_root() / "truth" / "truth.json";
+    if (std::filesystem::exists(file))
         truth_ = synthesis::open_truth(workspace.database_root());
+    else if (workspace.made_with_truth())
+        throw InputError(
+            fmt::format("{}: is not there, though workspace {} was made from a database with a truth; put the database "
+                        "back, or run 'mimik preprocess DB -o {}' with the place where it is now",
+                        file.string(), workspace.root().string(), workspace.root().string()));
 }
 
 void PerformanceReader::check_neutral(const std::string& subject) const {

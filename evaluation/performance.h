@@ -23,6 +23,8 @@ struct Performance {
 /// when somebody needs it and drops it afterwards: memory does not grow with the database. From any thread.
 class PerformanceReader {
 public:
+    /// @throws InputError if the database had a truth when the workspace was made, and has none now: other zones and
+    /// another alignment would change every score without a word.
     explicit PerformanceReader(const preprocessing::Workspace& workspace);
 
     [[nodiscard]] const preprocessing::Workspace& workspace() const { return workspace_; }

@@ -167,6 +167,7 @@ TEST_F(Experiment, the_estimate_counts_the_cases_that_are_scored) {
 TEST_F(Experiment, what_cannot_be_scored_is_refused_by_name_before_any_work) {
     auto options = smile_options();
     options.expressions = {"12", "17"};
+    EXPECT_THROW(check_experiment(*workspace_, modeling::builtin_catalogue(), options), InputError);
     EXPECT_THAT(message_of<InputError>([&] { (void)run(*workspace_, options); }),
                 HasSubstr("expression '17': 0 subjects show it"));
     options.expressions = {"12", "12"};
@@ -215,6 +216,18 @@ TEST_F(Experiment, a_damaged_face_and_a_hidden_subject_take_no_part_and_the_rest
                     .is_null());
     for (const auto& text : {to_markdown(report), to_csv(report), to_json(report)})
         EXPECT_THAT(text, testing::Not(HasSubstr("bs003")));
+}
+
+TEST_F(Experiment, whose_truth_is_gone_is_refused_by_its_place_and_not_scored_in_another_way) {
+    const database::TemporaryFolder folder;
+    test::write_analytic_truth(folder.path() / "db");
+    const auto workspace = test::analytic_workspace(folder.path());
+    std::filesystem::rename(folder.path() / "db", folder.path() / "elsewhere");
+    const auto missing = (folder.path() / "db" / "truth" / "truth.json").string();
+    EXPECT_THAT(message_of<InputError>([&] { (void)run(workspace); }), HasSubstr(missing + ": is not there"));
+    EXPECT_THAT(
+        message_of<InputError>([&] { check_experiment(workspace, modeling::builtin_catalogue(), smile_options()); }),
+        HasSubstr("mimik preprocess DB -o"));
 }
 
 }  // namespace
