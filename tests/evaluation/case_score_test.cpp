@@ -1,9 +1,12 @@
 #include "evaluation/case_score.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "geometry/errors.h"
 
 namespace mimik::evaluation {
 namespace {
@@ -110,6 +113,13 @@ TEST_F(CaseScore, overshooting_by_more_than_the_way_is_worse_than_nothing) {
     EXPECT_EQ(score.worse_than_nothing, 1U);
     EXPECT_EQ(score.explained, 1 - 6.0 / 4.0);
     EXPECT_EQ(score.explained_median, -0.5);
+}
+
+TEST_F(CaseScore, a_zone_that_nothing_sees_is_no_case) {
+    std::fill(target_.in_zone.begin(), target_.in_zone.end(), 0);
+    EXPECT_THROW((void)judge(still_), NumericalError);
+    target_ = {{}, {}, {}, {}, std::move(target_.expressive)};
+    EXPECT_THROW((void)judge(still_), NumericalError);
 }
 
 TEST(ScoreSum, of_no_case_is_zero_and_says_so) { EXPECT_EQ(summarise_cases({}).cases, 0U); }
