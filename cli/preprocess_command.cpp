@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,7 +11,6 @@
 #include "cli/figure_start.h"
 #include "database/scan_database.h"
 #include "geometry/errors.h"
-#include "geometry/parallel.h"
 #include "modeling/control_points.h"
 #include "preprocessing/quality_sheet.h"
 #include "preprocessing/workspace.h"
@@ -39,13 +39,18 @@ preprocessing::QualitySheetReport draw_sheets(const Arguments& arguments) {
     } catch (const InputError& e) {
         return {0, 0, {fmt::format("no quality sheets: {}", e.what())}};
     }
-    Progress progress(arguments.common, "sheets", workspace.subjects().size());
+    const auto subjects = workspace.subjects();
+    const auto shown = std::count_if(subjects.begin(), subjects.end(),
+                                     [&](const auto& subject) { return !workspace.hidden(subject); });
+    Progress progress(arguments.common, "sheets", static_cast<std::size_t>(shown));
     return preprocessing::draw_quality_sheets(workspace, draw_figure,
                                               [&](const std::string& subject) { progress.advance(subject); });
 }
 
 int run(Arguments& arguments) {
     const auto database = database::open_database(arguments.database);
+    arguments.options.check();
+    preprocessing::check_workspace_place(database, arguments.output);
     const auto scans = preprocessing::selected_scans(database, arguments.options);
     if (arguments.dry_run) {
         const double vertices = static_cast<double>(arguments.options.gridding.rows) * arguments.options.gridding.cols;
@@ -53,7 +58,7 @@ int run(Arguments& arguments) {
         const double megabytes =
             count * (vertices * bytes_per_vertex + (arguments.sheets ? sheet_bytes_per_scan : 0)) / 1e6;
         const double seconds =
-            count * (seconds_per_scan + (arguments.sheets ? sheet_seconds_per_scan : 0)) / geometry::thread_count();
+            count * (seconds_per_scan + (arguments.sheets ? sheet_seconds_per_scan : 0)) / working_threads();
         if (arguments.common.json)
             std::cout << nlohmann::json{{"schema", 1},
                                         {"dry_run", true},

@@ -7,7 +7,6 @@
 
 #include "cli/command.h"
 #include "geometry/errors.h"
-#include "geometry/parallel.h"
 #include "synthesis/synthesize.h"
 
 namespace mimik::cli {
@@ -28,7 +27,7 @@ int run_synthesize(SynthesizeArguments arguments) {
                                                     : synthesis::load_ict_face_model(arguments.face_model);
     const auto estimate = synthesis::estimate_database(*model, options);
     if (arguments.dry_run) {
-        const double seconds = estimate.core_seconds / geometry::thread_count();
+        const double seconds = estimate.core_seconds / working_threads();
         if (arguments.common.json)
             std::cout << nlohmann::json{{"schema", 1},
                                         {"scans", estimate.scans},

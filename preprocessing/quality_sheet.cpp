@@ -58,6 +58,7 @@ public:
     void remove() const {
         std::error_code ignored;
         for (const char* suffix : {".done", ".png"}) fs::remove(file(suffix), ignored);
+        fs::remove_all(parts(), ignored);  // of a run that was killed
     }
 
 private:
@@ -139,11 +140,14 @@ private:
 
 QualitySheetReport draw_quality_sheets(const Workspace& workspace, const DrawFigure& draw,
                                        const std::function<void(const std::string&)>& progress) {
-    // Also of subjects that this workspace has no scan of any more.
+    // Also of subjects that this workspace has no scan of any more; and the meshes of runs that were killed.
     std::error_code none;
-    for (const auto& entry : fs::directory_iterator(workspace.root() / "sheets", none))
-        if (const auto subject = entry.path().stem().string(); workspace.hidden(subject))
-            Sheet(workspace, subject).remove();
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(workspace.root() / "sheets", none)) found.push_back(entry.path());
+    for (const auto& path : found) {
+        if (const auto subject = path.stem().string(); workspace.hidden(subject)) Sheet(workspace, subject).remove();
+        if (path.extension() == ".parts") fs::remove_all(path, none);
+    }
 
     std::vector<std::string> subjects;
     for (const auto& subject : workspace.subjects())

@@ -52,10 +52,11 @@ can_draw=yes
 mkdir alone
 cp "$mimik" alone/mimik
 "$mimik" panels work1 --source bs000 --target bs001 --au 4,12L -o panels --dry-run >planned.txt
-diff planned.txt - <<'END'
+diff <(head -n 2 planned.txt) - <<'END'
 panels/AU4_bs000_on_bs001_default.png
 panels/AU12_L_bs000_on_bs001_default.png
 END
+grep -q '^2 pictures of 20 panels: about [0-9]* s, [0-9]* MB in panels$' planned.txt
 [ ! -e panels ]
 claim "panels can be listed before they are made"
 expect_code 1 "mimik-figure is neither" env PATH=nowhere alone/mimik panels work1 --source bs000 --target bs001 --au 12 -o panels
@@ -76,7 +77,14 @@ expect_code 2 "stand in --series" "$mimik" panels work1 --target bs001 --au 12:0
 expect_code 2 "bs000, bs001, bs002" "$mimik" panels work1 --target bs009 --au 12 -o nothing
 expect_code 2 "no scan of expression '17'" "$mimik" panels work1 --source bs000 --target bs001 --au 17 -o nothing
 [ ! -e nothing ]
+expect_code 2 "asked for twice" "$mimik" panels work1 --source bs000 --target bs001 --au 12,AU12 -o nothing
 claim "panels that cannot be are refused by name"
+
+cp -r work1 work3
+echo '{}' >work3/faces/bs001/bs001_UFAU_4_0.json
+expect_code 1 "AU4_bs000_on_bs001_default: " "$mimik" panels work3 --source bs000 --target bs001 --au 4,12 -o panels3 --quiet
+[ -s panels3/AU12_bs000_on_bs001_default/figure.json ]
+claim "an AU that cannot be shown is named with 1, and the others are"
 
 code=0
 PATH=nowhere alone/mimik preprocess db1 -o work2 --sheets --quiet >out.txt 2>err.txt || code=$?
@@ -100,6 +108,19 @@ expect_code 2 "is not a folder" "$mimik" preprocess nowhere -o x
 expect_code 2 "no finished workspace" "$mimik" evaluate db1
 [ ! -e x.ply ] && [ ! -e x ]
 claim "wrong input is named, ends with 2 and leaves nothing behind"
+
+expect_code 2 "'99'" "$mimik" evaluate work1 --expression 99 --dry-run
+expect_code 2 "trim is nan" "$mimik" preprocess db1 -o x --trim nan --dry-run
+expect_code 2 "100000" "$mimik" preprocess db1 -o x --rows 100000 --dry-run
+expect_code 2 "nothing is written" "$mimik" preprocess db1 -o db1 --dry-run
+"$mimik" preprocess db1 -o x --dry-run --json --threads "$(nproc)" >estimate.json
+"$mimik" preprocess db1 -o x --dry-run --json --threads 1024 | diff estimate.json -
+claim "a dry run refuses what the run would, and believes in no more threads than there are cores"
+
+touch file
+expect_code 2 "file" "$mimik" evaluate work1 --expression 12 -o file/scores
+[ ! -s out.txt ]
+claim "a folder that takes no scores is found out before the work"
 
 head -c 1000 db1/bs002/bs002_LFAU_12_0.bnt >cut.bnt
 cp -r db1 broken

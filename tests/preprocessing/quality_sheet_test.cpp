@@ -98,5 +98,15 @@ TEST_F(QualitySheet, subjects_who_must_not_be_shown_get_none_and_lose_the_one_th
     EXPECT_TRUE(fs::exists(sheet("bs000.png")));
 }
 
+TEST_F(QualitySheet, meshes_that_a_killed_run_left_do_not_stay) {
+    Drawer first, second;
+    (void)draw(first);
+    // One subject whose sheet is whole since, and one that is gone.
+    for (const char* name : {"bs000.parts", "bs777.parts"}) geometry::write_atomically(sheet(name) / "mesh.ply", "ply");
+    EXPECT_EQ(draw(second).up_to_date, 3U);
+    EXPECT_FALSE(fs::exists(sheet("bs000.parts")));
+    EXPECT_FALSE(fs::exists(sheet("bs777.parts")));
+}
+
 }  // namespace
 }  // namespace mimik::preprocessing
