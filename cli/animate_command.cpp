@@ -48,7 +48,8 @@ int run(Arguments& arguments) {
     std::vector<animation::WeightedExpression> expressions;
     std::vector<animation::NamedMagnitude> names;
     for (const auto& text : arguments.action_units) {
-        const auto selection = modeling::parse_selection(text);
+        auto selection = modeling::parse_selection(text);
+        selection.code = catalogue.code(selection.code);
         models.push_back(modeling::model_from_workspace(workspace, catalogue, selection.code, source, model_options));
         names.push_back(
             {arguments.arkit_names ? modeling::arkit_name(catalogue, selection.code) : models.back().expression,
@@ -125,7 +126,8 @@ void add_animate_command(CLI::App& app, int& exit_code) {
     command->add_option("--target", arguments->target, "Subject whose first neutral face is animated")->required();
     command
         ->add_option("--au", arguments->action_units,
-                     "AU or emotion, side and magnitude: 12, 12:0.5, 4L, HAPPY:0.8; repeat")
+                     "AU or emotion, side and magnitude: 12, 12:0.5, AU4_L, HAPPY:0.8; repeat or 4,12")
+        ->delimiter(',')
         ->required();
     command->add_option("--combine", arguments->combine, "Several AUs: sum, or parallel (equal pulls do not double)")
         ->check(CLI::IsMember({"sum", "parallel"}))

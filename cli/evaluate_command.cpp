@@ -29,6 +29,7 @@ int run(Arguments& arguments) {
     auto& options = arguments.options;
     options.methods.clear();
     for (const auto& name : arguments.methods) options.methods.push_back(evaluation::method_by_name(name));
+    for (auto& expression : options.expressions) expression = catalogue.code(expression);
     options.reference = !arguments.no_reference;
     options.whole_face = !arguments.no_whole_face;
     evaluation::check_experiment(workspace, catalogue, options);

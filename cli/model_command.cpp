@@ -8,7 +8,6 @@
 
 #include "cli/command.h"
 #include "cli/method_options.h"
-#include "geometry/errors.h"
 #include "modeling/source_expression.h"
 
 namespace mimik::cli {
@@ -26,20 +25,20 @@ int run(Arguments& arguments) {
     const auto catalogue = arguments.method.catalogue();
     const std::filesystem::path folder = arguments.output.empty() ? workspace.root() / "models" / arguments.method.name
                                                                   : std::filesystem::path(arguments.output);
-    std::vector<std::string> hidden;
-    for (const auto& subject : workspace.subjects())
-        if (workspace.hidden(subject)) hidden.push_back(subject);
+    // A word mistyped is found out before any work.
+    for (auto& expression : arguments.expressions) expression = catalogue.code(expression);
+    for (const auto& source : arguments.sources) {
+        workspace.refuse_hidden(source);
+        if (source != "mean") (void)workspace.neutral(source);
+    }
 
     auto written = nlohmann::json::array();
     std::vector<std::string> failures;
     Progress progress(arguments.common, "model", arguments.sources.size() * arguments.expressions.size());
     for (const auto& source : arguments.sources) {
-        if (workspace.hidden(source))
-            throw InputError(fmt::format(
-                "subject '{}' stands in unallowed_subjects.txt; a model of it must not leave the database", source));
         for (const auto& expression : arguments.expressions) {
             try {
-                const auto model = modeling::model_from_workspace(workspace, catalogue, expression, {source, hidden},
+                const auto model = modeling::model_from_workspace(workspace, catalogue, expression, {source, {}},
                                                                   arguments.method.model_options());
                 const auto file = folder / source / (model.expression + ".json");
                 modeling::write_expression_model(file, model);

@@ -50,7 +50,8 @@ std::vector<Planned> plan(const Arguments& arguments, const preprocessing::Works
                           const modeling::FacsCatalogue& catalogue, std::vector<std::string>& codes) {
     std::vector<Planned> planned;
     for (const auto& text : arguments.action_units) {
-        const auto selection = modeling::parse_selection(text);
+        auto selection = modeling::parse_selection(text);
+        selection.code = catalogue.code(selection.code);
         if (!arguments.series.empty() && selection.magnitude != 1.0)
             throw InputError(
                 fmt::format("--au {}: the magnitudes of a series stand in --series; give the AU alone", text));

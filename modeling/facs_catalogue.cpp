@@ -306,6 +306,27 @@ ControlKind parse_control_kind(const std::string& text) {
     throw InputError(fmt::format("kind '{}' is none of muscle, wrinkle, coverage, anchor", text));
 }
 
+namespace {
+
+/// The AUs of a scan's code, each as the scan of that AU alone: "12L", or the parts of "A12LA15". Empty if any part is
+/// no AU.
+std::vector<database::ScanId> unit_codes_of(std::string_view code) {
+    std::vector<database::ScanId> units;
+    // Nothing but letters and digits: parse_expression would read "4-12" as AU412.
+    if (!std::all_of(code.begin(), code.end(), [](unsigned char c) { return std::isalnum(c) != 0; })) return {};
+    if (code.starts_with('A')) code.remove_prefix(1);
+    for (std::size_t begin = 0; begin <= code.size();) {
+        const auto end = std::min(code.find('A', begin), code.size());
+        auto unit = database::parse_expression(code.substr(begin, end - begin));
+        if (!unit || !unit->action_unit()) return {};
+        units.push_back(std::move(*unit));
+        begin = end + 1;
+    }
+    return units;
+}
+
+}  // namespace
+
 FacsCatalogue::FacsCatalogue(Sampling sampling, std::vector<ActionUnit> units, std::vector<Emotion> emotions)
     : sampling_(sampling), units_(std::move(units)), emotions_(std::move(emotions)) {}
 
@@ -315,53 +336,54 @@ const ActionUnit* FacsCatalogue::find(int number) const {
     return it == units_.end() ? nullptr : &*it;
 }
 
-std::vector<SidedUnit> FacsCatalogue::resolve(const std::string& expression) const {
-    const std::string code = upper(expression);
+std::string FacsCatalogue::code(const std::string& expression) const {
     for (const auto& emotion : emotions_)
-        if (emotion.name == code) {
-            std::vector<SidedUnit> units;
+        if (emotion.name == upper(expression)) return emotion.name;
+    const auto parsed = database::parse_expression(expression);
+    const auto& code = parsed ? parsed->code : expression;
+    for (const auto& emotion : emotions_)
+        if (emotion.name == code) return emotion.name;  // "joy" and "E_HAPPY" are HAPPY
+    const auto unit_codes = unit_codes_of(code);
+    if (unit_codes.empty()) {
+        std::vector<std::string> emotions;
+        for (const auto& emotion : emotions_) emotions.push_back(emotion.name);
+        throw InputError(fmt::format("expression '{}' is neither an AU (12, AU4_L, 4L, A12A15) nor an emotion ({})",
+                                     expression, fmt::join(emotions, ", ")));
+    }
+    for (const auto& part : unit_codes) {
+        const auto* unit = find(*part.action_unit());
+        if (!unit) {
+            std::vector<int> numbers;
+            for (const auto& known : units_) numbers.push_back(known.number);
+            throw InputError(fmt::format("expression '{}': AU{} is not in the catalogue; there are: {}", expression,
+                                         *part.action_unit(), fmt::join(numbers, ", ")));
+        }
+        if (unit->central && part.side() != database::Side::both)
+            throw InputError(fmt::format("expression '{}': AU{} ({}) moves both sides at once; leave the side out",
+                                         expression, unit->number, unit->name));
+    }
+    if (unit_codes.size() == 1) return unit_codes.front().code;
+    std::string joined;
+    for (const auto& part : unit_codes) joined += 'A' + part.code;
+    return joined;
+}
+
+std::vector<SidedUnit> FacsCatalogue::resolve(const std::string& expression) const {
+    const auto known = code(expression);
+    std::vector<SidedUnit> units;
+    for (const auto& emotion : emotions_)
+        if (emotion.name == known) {
             for (const int number : emotion.action_units) units.push_back({find(number), database::Side::both});
             return units;
         }
-    // One or more AUs: "12", "12L", "12LW", "A12A15", "A26A12LW".
-    std::vector<SidedUnit> units;
-    std::size_t at = 0;
-    while (at < code.size()) {
-        if (code[at] == 'A') ++at;
-        int number = 0;
-        const auto [end, fault] = std::from_chars(code.data() + at, code.data() + code.size(), number);
-        if (fault != std::errc{}) break;
-        at = static_cast<std::size_t>(end - code.data());
-        SidedUnit sided{find(number), database::Side::both};
-        if (code.compare(at, 2, "LW") == 0) {
-            at += 2;
-        } else if (at < code.size() && (code[at] == 'L' || code[at] == 'R')) {
-            sided.side = code[at] == 'L' ? database::Side::left : database::Side::right;
-            ++at;
-        }
-        if (!sided.unit) {
-            std::vector<int> numbers;
-            for (const auto& unit : units_) numbers.push_back(unit.number);
-            throw InputError(fmt::format("expression '{}': AU{} is not in the catalogue; there are: {}", expression,
-                                         number, fmt::join(numbers, ", ")));
-        }
-        if (sided.unit->central && sided.side != database::Side::both)
-            throw InputError(fmt::format("expression '{}': AU{} ({}) moves both sides at once; leave the side out",
-                                         expression, number, sided.unit->name));
-        units.push_back(sided);
-    }
-    if (units.empty() || at < code.size()) {
-        std::vector<std::string> emotions;
-        for (const auto& emotion : emotions_) emotions.push_back(emotion.name);
-        throw InputError(fmt::format("expression '{}' is neither an AU (12, 4L, A12A15) nor an emotion ({})",
-                                     expression, fmt::join(emotions, ", ")));
-    }
+    for (const auto& part : unit_codes_of(known)) units.push_back({find(*part.action_unit()), part.side()});
     return units;
 }
 
 std::string expression_name(const FacsCatalogue& catalogue, const std::string& expression) {
+    const auto code = catalogue.code(expression);
     for (const auto& emotion : catalogue.emotions())
-        if (emotion.name == upper(expression)) return emotion.name;
+        if (emotion.name == code) return emotion.name;
     std::string name;
     for (const auto& sided : catalogue.resolve(expression)) {
         name += fmt::format("{}AU{}", name.empty() ? "" : "+", sided.unit->number);
@@ -370,7 +392,7 @@ std::string expression_name(const FacsCatalogue& catalogue, const std::string& e
     return name;
 }
 
-std::string arkit_name(const FacsCatalogue& catalogue, const std::string& expression) {
+std::string arkit_shape(const FacsCatalogue& catalogue, const std::string& expression) {
     const auto units = catalogue.resolve(expression);
     if (units.size() == 1) {
         const auto& [unit, side] = units.front();
@@ -378,7 +400,12 @@ std::string arkit_name(const FacsCatalogue& catalogue, const std::string& expres
         if (side != database::Side::both && !unit->arkit.empty())
             return unit->arkit + (side == database::Side::left ? "Left" : "Right");
     }
-    return expression_name(catalogue, expression);
+    return {};
+}
+
+std::string arkit_name(const FacsCatalogue& catalogue, const std::string& expression) {
+    const auto shape = arkit_shape(catalogue, expression);
+    return shape.empty() ? expression_name(catalogue, expression) : shape;
 }
 
 std::string_view builtin_catalogue_text() { return embedded_catalogue; }
@@ -413,7 +440,7 @@ FacsCatalogue read_catalogue(const std::filesystem::path& file) {
 
 Selection parse_selection(const std::string& text) {
     Selection selection;
-    const auto colon = text.find(':');
+    const auto colon = text.rfind(':');
     selection.code = text.substr(0, colon);
     if (colon != std::string::npos) {
         const char* begin = text.data() + colon + 1;

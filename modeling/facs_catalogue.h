@@ -82,8 +82,11 @@ public:
     [[nodiscard]] const std::vector<ActionUnit>& units() const { return units_; }
     [[nodiscard]] const std::vector<Emotion>& emotions() const { return emotions_; }
     [[nodiscard]] const ActionUnit* find(int number) const;
-    /// "12", "4L", "12LW" (low intensity), "A12A15", "HAPPY" -> AUs and sides. @throws InputError listing what there
-    /// is.
+    /// The one way in which scans spell an expression, of every way that Mimik reads or writes: "12", "AU12", "LFAU_12"
+    /// -> "12"; "12l", "AU12_L" -> "12L"; "12LW" (low intensity); "AU12+AU15" -> "A12A15"; "happy", "joy" -> "HAPPY".
+    /// @throws InputError if it is not in the catalogue, listing what there is.
+    [[nodiscard]] std::string code(const std::string& expression) const;
+    /// The AUs and sides of an expression, spelt as for code(). @throws InputError as code().
     [[nodiscard]] std::vector<SidedUnit> resolve(const std::string& expression) const;
 
 private:
@@ -92,8 +95,10 @@ private:
     std::vector<Emotion> emotions_;
 };
 
-/// The ARKit blendshape of a code: "12L" -> "mouthSmileLeft", "17" -> "mouthShrugLower"; without one, or for both sides
-/// of a paired AU (ARKit has none for both), Mimik's own name: "AU12".
+/// The ARKit blendshape of an expression: "12L" -> "mouthSmileLeft", "17" -> "mouthShrugLower"; empty without one, or
+/// for both sides of a paired AU (ARKit has none for both).
+[[nodiscard]] std::string arkit_shape(const FacsCatalogue& catalogue, const std::string& expression);
+/// The same, and Mimik's own name where there is none: "AU12".
 [[nodiscard]] std::string arkit_name(const FacsCatalogue& catalogue, const std::string& expression);
 /// Mimik's own name of an expression: "12" -> "AU12", "4L" -> "AU4_L", "happy" -> "HAPPY", "A12A15" -> "AU12+AU15".
 [[nodiscard]] std::string expression_name(const FacsCatalogue& catalogue, const std::string& expression);
@@ -115,9 +120,9 @@ struct LintFinding {
 [[nodiscard]] FacsCatalogue read_catalogue(const std::filesystem::path& file);
 [[nodiscard]] FacsCatalogue parse_catalogue(const std::string& text, const std::string& name);
 
-/// "12", "12:0.5", "4L", "HAPPY:0.8".
+/// "12", "12:0.5", "AU4_L", "HAPPY:0.8"; or a file in place of the expression.
 struct Selection {
-    std::string code;
+    std::string code;  ///< as typed; FacsCatalogue::code knows what it means
     double magnitude = 1.0;
 };
 [[nodiscard]] Selection parse_selection(const std::string& text);  ///< throws InputError

@@ -39,10 +39,11 @@ ScanId source_scan(const Workspace& workspace, const std::string& subject, const
 ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatalogue& catalogue,
                                      const std::string& expression, const ExpressionSource& source,
                                      const ModelOptions& options) {
+    const auto code = catalogue.code(expression);
     workspace.refuse_hidden(source.subject);
     if (source.subject != "mean") {
-        const auto scan = source_scan(workspace, source.subject, expression);
-        return measure_expression(catalogue, expression, workspace.average(),
+        const auto scan = source_scan(workspace, source.subject, code);
+        return measure_expression(catalogue, code, workspace.average(),
                                   workspace.face(workspace.neutral(source.subject)), workspace.face(scan), options);
     }
 
@@ -52,15 +53,15 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
         if (workspace.hidden(subject) ||
             std::find(source.excluded.begin(), source.excluded.end(), subject) != source.excluded.end())
             continue;
-        if (const auto id = scan_that_shows(workspace, subject, expression)) {
+        if (const auto id = scan_that_shows(workspace, subject, code)) {
             subjects.push_back(subject);
             ids.push_back(*id);
         }
     }
     if (subjects.empty())
         throw InputError(fmt::format("{}: no other subject shows expression '{}', so there is no mean",
-                                     workspace.root().string(), expression));
-    const ExpressionGauge gauge(catalogue, expression, workspace.average(), options);
+                                     workspace.root().string(), code));
+    const ExpressionGauge gauge(catalogue, code, workspace.average(), options);
     ExpressionMean sum;
     std::vector<std::string> faults;
     bool any = false;
@@ -85,7 +86,7 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
                 faults.push_back(fault[k]);
             }
     }
-    if (!any) throw InputError(fmt::format("expression '{}': {}", expression, fmt::join(faults, "; ")));
+    if (!any) throw InputError(fmt::format("expression '{}': {}", code, fmt::join(faults, "; ")));
     auto mean = sum.mean();
     mean.left_out.insert(mean.left_out.end(), faults.begin(), faults.end());
     return mean;

@@ -37,6 +37,12 @@ claim "so is an animated face"
 grep -q '"preprocessed": 0' again.json
 claim "a second run finds everything done"
 
+"$mimik" animate work1 --source bs000 --target bs001 --au 12L,4:0.5 -o face.glb --quiet
+"$mimik" animate work1 --source bs000 --target bs001 --au AU12_L --au au4:0.5 -o named.glb --quiet
+cmp face.glb named.glb
+"$mimik" panels work1 --source bs000 --target bs001 --au AU12_L -o panels --dry-run | grep -q "AU12_L_bs000_on_bs001"
+claim "an expression may be typed in every way in which it is written"
+
 for extension in ply obj vtp; do
   "$mimik" animate work1 --source bs000 --target bs001 --au 12 --method thesis -o "face.$extension" --quiet
   [ -s "face.$extension" ]
@@ -102,7 +108,11 @@ fi
 
 "$mimik" scans db1 --json --no-catalogue >scans.json
 grep -q '"schema"' scans.json
-expect_code 2 "no scan of expression '99'" "$mimik" animate work1 --source bs000 --target bs001 --au 99 -o x.ply
+expect_code 2 "AU99 is not in the catalogue; there are: 1, 2" "$mimik" animate work1 --target bs001 --au 99 -o x.ply
+expect_code 2 "no scan of expression '17'" "$mimik" animate work1 --source bs000 --target bs001 --au 17 -o x.ply
+expect_code 2 "asked for twice" "$mimik" evaluate work1 --expression 12,AU12
+expect_code 2 "AU99 is not in the catalogue" "$mimik" model work1 --source bs000 --expression 12,99 -o x
+expect_code 2 "bs000, bs001, bs002" "$mimik" model work1 --source bs009 --expression 12 -o x
 expect_code 2 "bs000, bs001, bs002" "$mimik" animate work1 --source bs000 --target bs009 --au 12 -o x.ply
 expect_code 2 "is not a folder" "$mimik" preprocess nowhere -o x
 expect_code 2 "no finished workspace" "$mimik" evaluate db1

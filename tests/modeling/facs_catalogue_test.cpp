@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/errors.h"
+#include "tests/database/temporary_folder.h"
 
 namespace mimik::modeling {
 namespace {
@@ -79,6 +80,31 @@ TEST(FacsCatalogue, splits_a_code_into_units_and_sides) {
     EXPECT_EQ(units[0].side, database::Side::left);
     EXPECT_EQ(units[1].unit->number, 15);
     EXPECT_EQ(units[1].side, database::Side::both);
+}
+
+TEST(FacsCatalogue, reads_every_way_in_which_mimik_spells_an_expression_as_one) {
+    const std::vector<std::pair<std::string, std::vector<std::string>>> spellings = {
+        {"12", {"12", "AU12", "au12", "LFAU_12", "A12"}},
+        {"12L", {"12L", "12l", "AU12_L", "au12_l", "AU12L"}},
+        {"12LW", {"12LW", "12lw"}},
+        {"A12A15", {"A12A15", "AU12+AU15", "a12a15"}},
+        {"A12LA15", {"A12LA15", "AU12_L+AU15"}},
+        {"HAPPY", {"HAPPY", "happy", "E_HAPPY", "joy"}}};
+    for (const auto& [code, words] : spellings)
+        for (const auto& word : words) {
+            EXPECT_EQ(builtin_catalogue().code(word), code) << word;
+            // What a model, a morph target and a picture are called can be typed back.
+            EXPECT_EQ(builtin_catalogue().code(expression_name(builtin_catalogue(), word)),
+                      code == "12LW" ? "12" : code)
+                << word;
+        }
+}
+
+TEST(FacsCatalogue, refuses_what_is_no_expression_and_says_what_is) {
+    for (const auto* word : {"", "N", "smile", "4,12", "12X", "A12A", "AU", "12+"})
+        EXPECT_THAT(database::message_of<InputError>([&] { (void)builtin_catalogue().code(word); }),
+                    testing::AllOf(HasSubstr("neither an AU"), HasSubstr("HAPPY")))
+            << word;
 }
 
 TEST(FacsCatalogue, refuses_half_of_a_unit_that_moves_both_sides_at_once) {

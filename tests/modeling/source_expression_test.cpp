@@ -46,6 +46,14 @@ TEST_F(SourceExpression, one_side_comes_from_the_two_sided_scan_where_there_is_n
         }
 }
 
+TEST_F(SourceExpression, an_expression_is_found_however_it_is_spelt) {
+    for (const auto* word : {"AU12_L", "12l"}) {
+        EXPECT_THAT(model(word, {"bs001", {}}).sources, ElementsAre("bs001_N_N_0", "bs001_LFAU_12_0")) << word;
+        EXPECT_EQ(model(word, {"mean", {}}).sources.size(), 6U) << word;
+    }
+    EXPECT_EQ(model("au12", {"mean", {}}).expression, "AU12");
+}
+
 TEST_F(SourceExpression, a_mean_leaves_out_the_target_and_takes_all_others) {
     const auto mean = model("12", {"mean", {"bs001"}});
     EXPECT_THAT(mean.sources, ElementsAre("bs000_N_N_0", "bs000_LFAU_12_0", "bs002_N_N_0", "bs002_LFAU_12_0"));
@@ -69,6 +77,10 @@ TEST_F(SourceExpression, what_is_not_there_is_named_with_what_there_is) {
                     (void)model("12", {"mean", {"bs000", "bs001", "bs002"}});
                 }),
                 HasSubstr("no other subject shows expression '12'"));
+    EXPECT_THAT(message_of<InputError>([] {
+                    (void)model("99", {"mean", {}});
+                }),
+                HasSubstr("AU99 is not in the catalogue; there are: 1, 2, 4"));
 }
 
 TEST_F(SourceExpression, subjects_who_must_not_be_shown_are_no_source_and_in_no_mean) {
