@@ -519,9 +519,7 @@ std::vector<std::string> Workspace::subjects() const {
     return {names.begin(), names.end()};
 }
 
-bool Workspace::hidden(const std::string& subject) const {
-    return database::is_hidden(hidden_subjects_, subject);
-}
+bool Workspace::hidden(const std::string& subject) const { return database::is_hidden(hidden_subjects_, subject); }
 
 void Workspace::refuse_hidden(const std::string& subject) const {
     if (hidden(subject))
