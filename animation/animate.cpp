@@ -155,6 +155,7 @@ AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpressio
                      const AnimationOptions& options) {
     AnimatedFace result;
     result.grid = target.face().grid;
+    result.combination = options.combination;
     const std::size_t n = result.grid.size();
     const Eigen::Matrix3d scan_from_average = target.average_from_scan().linear().inverse();
     for (const auto& [model, magnitude] : expressions) {

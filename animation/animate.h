@@ -84,6 +84,7 @@ struct CarriedPoint {
 struct AnimatedFace {
     geometry::QuadGrid grid;                        ///< scanner frame of the target's neutral scan; origins as there
     std::vector<geometry::Vector> displacement_mm;  ///< per vertex, scanner frame
+    Combination combination = Combination::sum;     ///< of fields_mm, into displacement_mm
     std::vector<std::vector<geometry::Vector>> fields_mm;  ///< of each expression alone at magnitude 1, scanner frame
     std::vector<CarriedPoint> points;
     std::vector<std::string> remarks;  ///< merged points, magnitudes above 1, ...

@@ -1,14 +1,15 @@
 #include "animation/face_export.h"
 
-#include <algorithm>
-#include <cctype>
+#include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/glb.h"
 #include "geometry/mesh_io.h"
+#include "geometry/text.h"
 
 namespace mimik::animation {
 
@@ -39,11 +40,55 @@ Mesh mesh_of(const geometry::QuadGrid& neutral, const std::vector<Vector>& displ
     return mesh;
 }
 
-std::string lower_extension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
+/// A morph target before its vertices are gathered: displacements of the grid at weight 1, scanner frame.
+struct Shape {
+    NamedMagnitude name;
+    const std::vector<Vector>* displacement_mm = nullptr;
+};
+
+std::vector<std::string> write_glb_face(const std::filesystem::path& file, const AnimatedFace& animated,
+                                        const TargetFace& target, std::span<const NamedMagnitude> names,
+                                        const std::filesystem::path& texture_file, const ExportOptions& options) {
+    if (names.size() != animated.fields_mm.size())
+        throw InputError(fmt::format("{}: {} names for {} expressions; give each morph target its name", file.string(),
+                                     names.size(), animated.fields_mm.size()));
+    std::vector<std::string> remarks;
+    std::vector<Shape> shapes;
+    if (animated.combination == Combination::parallel && names.size() > 1) {
+        // Viewers add morph targets up, whatever was asked for.
+        std::vector<std::string> parts;
+        for (const auto& name : names) parts.push_back(name.name);
+        const auto joined = fmt::format("{}", fmt::join(parts, "+"));
+        shapes.push_back({{joined, 1.0, {}}, &animated.displacement_mm});
+        remarks.push_back(fmt::format("morph targets of a GLB add up, so the parallel resultant is one, {}", joined));
+    } else {
+        std::set<std::string> taken;
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            if (!taken.insert(names[k].name).second)
+                throw InputError(fmt::format("{}: two morph targets would be called {}; give each expression once",
+                                             file.string(), names[k].name));
+            shapes.push_back({names[k], &animated.fields_mm[k]});
+        }
+    }
+    const auto& grid = target.face().grid;
+    const std::vector<Vector> still(grid.size(), Vector::Zero());
+    std::vector<std::uint32_t> kept, source;
+    const auto neutral = mesh_of(grid, still, target, options, &kept);
+    auto mesh = geometry::glb_mesh(neutral, &source);
+    mesh.name = target.face().id.subject;
+    if (!texture_file.empty()) mesh.texture_png = geometry::read_bytes(texture_file);
+    const Eigen::Matrix3d turn = options.frame == OutputFrame::average
+                                     ? Eigen::Matrix3d(target.average_from_scan().linear())
+                                     : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+    for (const auto& shape : shapes) {
+        geometry::MorphTarget morph{shape.name.name, {}, shape.name.magnitude, shape.name.arkit_shape};
+        for (const auto v : source) morph.displacement_mm.push_back(turn * (*shape.displacement_mm)[kept[v]]);
+        mesh.morph_targets.push_back(std::move(morph));
+    }
+    geometry::GlbScene scene;
+    scene.meshes.push_back(std::move(mesh));
+    geometry::write_glb(file, scene);
+    return remarks;
 }
 
 }  // namespace
@@ -52,47 +97,24 @@ Mesh to_mesh(const AnimatedFace& animated, const TargetFace& target, const Expor
     return mesh_of(target.face().grid, animated.displacement_mm, target, options);
 }
 
-void write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated, const TargetFace& target,
-                         std::span<const NamedMagnitude> names, const std::filesystem::path& texture_file,
-                         const ExportOptions& options) {
-    const auto extension = lower_extension(file);
-    if (extension == ".glb") {
-        if (names.size() != animated.fields_mm.size())
-            throw InputError(fmt::format("{}: {} names for {} expressions; give each morph target its name",
-                                         file.string(), names.size(), animated.fields_mm.size()));
-        const auto& grid = target.face().grid;
-        const std::vector<Vector> still(grid.size(), Vector::Zero());
-        std::vector<std::uint32_t> kept;
-        const auto neutral = mesh_of(grid, still, target, options, &kept);
-        std::vector<std::uint32_t> source;
-        auto mesh = geometry::glb_mesh(neutral, &source);
-        mesh.name = target.face().id.subject;
-        if (!texture_file.empty()) mesh.texture_png = geometry::read_bytes(texture_file);
-        const Eigen::Matrix3d turn = options.frame == OutputFrame::average
-                                         ? Eigen::Matrix3d(target.average_from_scan().linear())
-                                         : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-        for (std::size_t k = 0; k < animated.fields_mm.size(); ++k) {
-            geometry::MorphTarget morph{names[k].name, {}, names[k].magnitude};
-            for (const auto v : source) morph.displacement_mm.push_back(turn * animated.fields_mm[k][kept[v]]);
-            mesh.morph_targets.push_back(std::move(morph));
-        }
-        geometry::GlbScene scene;
-        scene.meshes.push_back(std::move(mesh));
-        geometry::write_glb(file, scene);
-        return;
-    }
+std::vector<std::string> write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated,
+                                             const TargetFace& target, std::span<const NamedMagnitude> names,
+                                             const std::filesystem::path& texture_file, const ExportOptions& options) {
+    const auto extension = geometry::lower_case(file.extension().string());
+    if (extension == ".glb") return write_glb_face(file, animated, target, names, texture_file, options);
     if (extension != ".ply" && extension != ".obj" && extension != ".vtp")
         throw InputError(fmt::format("{}: an animated face is written as .ply, .obj, .vtp or .glb, not '{}'",
                                      file.string(), extension));
     geometry::MeshWriteOptions write_options;
     if (!texture_file.empty()) {
         const auto bytes = geometry::read_bytes(texture_file);
-        auto copy = file;
-        copy.replace_extension(".png");
+        // Not face.png: that may be somebody's picture of the face.
+        const auto copy = file.parent_path() / (file.stem().string() + "_texture.png");
         geometry::write_atomically(copy, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
         write_options.texture_file = copy.filename().string();
     }
     geometry::write_mesh(file, to_mesh(animated, target, options), write_options);
+    return {};
 }
 
 }  // namespace mimik::animation

@@ -27,15 +27,19 @@ struct ExportOptions {
 struct NamedMagnitude {
     std::string name;  ///< "AU12_L" or the ARKit name
     double magnitude = 1.0;
+    std::string arkit_shape = {};  ///< kept beside the name; empty: ARKit has none
 };
 
-/// Writes .ply, .obj, .vtp (the animated face; texture copied beside it as PNG) or .glb (the neutral face with one
-/// morph target per expression set to its magnitude, metres, texture embedded).
+/// Writes .ply, .obj, .vtp (the animated face; texture of face.ply copied beside it as face_texture.png) or .glb (the
+/// neutral face with one morph target per expression set to its magnitude, metres, texture embedded). Morph targets add
+/// up, so several expressions combined in parallel are one target, the resultant, "AU12+AU4".
 /// @param texture_file  PNG of the scan; empty: none.
 /// @param names  one per expression, in the order of `animated.fields_mm`; used by GLB only.
-/// @throws InputError for another extension, or if the file cannot be written.
-void write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated, const TargetFace& target,
-                         std::span<const NamedMagnitude> names, const std::filesystem::path& texture_file,
-                         const ExportOptions& options = {});
+/// @return remarks: what the file cannot hold as it was asked for.
+/// @throws InputError for another extension, equal names of morph targets, or if the file cannot be written.
+std::vector<std::string> write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated,
+                                             const TargetFace& target, std::span<const NamedMagnitude> names,
+                                             const std::filesystem::path& texture_file,
+                                             const ExportOptions& options = {});
 
 }  // namespace mimik::animation

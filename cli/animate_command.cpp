@@ -23,10 +23,24 @@ struct Arguments {
     Common common;
     MethodArguments method;
     std::string workspace, source = "mean", target, output, frame = "scanner", combine = "sum";
-    std::vector<std::string> action_units, hold;
+    std::vector<std::string> action_units, model_files, hold;
     std::string regions;
     bool keep_bridged = false, arkit_names = false;
 };
+
+/// A model of a file, as good as one measured now: nobody who must not be shown is in it.
+modeling::ExpressionModel read_model(const preprocessing::Workspace& workspace, const std::string& file,
+                                     const std::string& target, std::vector<std::string>& remarks) {
+    auto model = modeling::read_expression_model(file);
+    bool of_target = false;
+    for (const auto& name : model.sources)
+        if (const auto scan = database::parse_scan_name(name)) {
+            workspace.refuse_hidden(scan->subject);
+            of_target = of_target || scan->subject == target;
+        }
+    if (of_target) remarks.push_back(fmt::format("{}: scans of the target itself are in this model", file));
+    return model;
+}
 
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
@@ -38,22 +52,31 @@ int run(Arguments& arguments) {
     animation_options.combination =
         arguments.combine == "parallel" ? animation::Combination::parallel : animation::Combination::sum;
 
-    modeling::ExpressionSource source{arguments.source, {arguments.target}};
-    for (const auto& subject : workspace.subjects())
-        if (workspace.hidden(subject)) source.excluded.push_back(subject);
+    const modeling::ExpressionSource source{arguments.source, {arguments.target}};
+    if (arguments.action_units.empty() && arguments.model_files.empty())
+        throw InputError("there is nothing to animate; give --au, such as 12, or --model, a file of 'mimik model'");
 
     const auto neutral = workspace.face(workspace.neutral(arguments.target));
     const animation::TargetFace target(neutral, model_options.frame, arguments.method.thesis());
     std::vector<modeling::ExpressionModel> models;
     std::vector<animation::WeightedExpression> expressions;
     std::vector<animation::NamedMagnitude> names;
+    std::vector<std::string> remarks;
+    const auto named = [&](const modeling::ExpressionModel& model, double magnitude) {
+        return animation::NamedMagnitude{
+            arguments.arkit_names ? modeling::arkit_name(catalogue, model.expression) : model.expression, magnitude,
+            modeling::arkit_shape(catalogue, model.expression)};
+    };
     for (const auto& text : arguments.action_units) {
-        auto selection = modeling::parse_selection(text);
-        selection.code = catalogue.code(selection.code);
+        const auto selection = modeling::parse_selection(text);
         models.push_back(modeling::model_from_workspace(workspace, catalogue, selection.code, source, model_options));
-        names.push_back(
-            {arguments.arkit_names ? modeling::arkit_name(catalogue, selection.code) : models.back().expression,
-             selection.magnitude});
+        names.push_back(named(models.back(), selection.magnitude));
+    }
+    for (const auto& text : arguments.model_files) {
+        const auto file =
+            std::filesystem::exists(text) ? modeling::Selection{text, 1.0} : modeling::parse_selection(text);
+        models.push_back(read_model(workspace, file.code, arguments.target, remarks));
+        names.push_back(named(models.back(), file.magnitude));
     }
     for (std::size_t k = 0; k < models.size(); ++k) expressions.push_back({&models[k], names[k].magnitude});
     if (!arguments.hold.empty()) {
@@ -72,15 +95,20 @@ int run(Arguments& arguments) {
     export_options.bridged =
         arguments.keep_bridged ? geometry::BridgedVertices::keep : geometry::BridgedVertices::leave_out;
     std::filesystem::path texture = neutral.texture_file;
-    std::vector<std::string> remarks = animated.remarks;
+    remarks.insert(remarks.end(), animated.remarks.begin(), animated.remarks.end());
     if (!texture.empty() && !std::filesystem::exists(texture)) {
         remarks.push_back(fmt::format("texture {} is gone, so the mesh has none", texture.string()));
         texture.clear();
     }
-    animation::write_animated_face(arguments.output, animated, target, names, texture, export_options);
+    for (auto& remark :
+         animation::write_animated_face(arguments.output, animated, target, names, texture, export_options))
+        remarks.push_back(std::move(remark));
 
     for (const auto& model : models)
         for (const auto& reason : model.left_out) remarks.push_back(fmt::format("{}: {}", model.expression, reason));
+    const std::string source_words = arguments.action_units.empty()  ? "model files"
+                                     : arguments.model_files.empty() ? arguments.source
+                                                                     : arguments.source + " and model files";
     if (arguments.common.json) {
         auto list = nlohmann::json::array();
         for (std::size_t k = 0; k < models.size(); ++k)
@@ -91,7 +119,7 @@ int run(Arguments& arguments) {
                             {"largest_displacement_mm", models[k].largest_displacement_mm()}});
         std::cout << nlohmann::json{{"schema", 1},
                                     {"target", neutral.id.name()},
-                                    {"source", arguments.source},
+                                    {"source", source_words},
                                     {"method", arguments.method.name},
                                     {"frame", arguments.frame},
                                     {"units", "mm"},
@@ -105,9 +133,10 @@ int run(Arguments& arguments) {
     } else {
         if (!arguments.common.quiet)
             for (const auto& remark : remarks) std::cerr << "note: " << remark << '\n';
-        std::cout << fmt::format("{}: {} from {} on {}, up to {:.1f} mm\n", arguments.output,
-                                 fmt::join(arguments.action_units, " + "), arguments.source, neutral.id.name(),
-                                 animated.largest_displacement_mm);
+        std::vector<std::string> asked = arguments.action_units;
+        asked.insert(asked.end(), arguments.model_files.begin(), arguments.model_files.end());
+        std::cout << fmt::format("{}: {} from {} on {}, up to {:.1f} mm\n", arguments.output, fmt::join(asked, " + "),
+                                 source_words, neutral.id.name(), animated.largest_displacement_mm);
     }
     return exit_done;
 }
@@ -127,8 +156,9 @@ void add_animate_command(CLI::App& app, int& exit_code) {
     command
         ->add_option("--au", arguments->action_units,
                      "AU or emotion, side and magnitude: 12, 12:0.5, AU4_L, HAPPY:0.8; repeat or 4,12")
-        ->delimiter(',')
-        ->required();
+        ->delimiter(',');
+    command->add_option("--model", arguments->model_files,
+                        "Expression file of 'mimik model', FILE or FILE:magnitude; repeat");
     command->add_option("--combine", arguments->combine, "Several AUs: sum, or parallel (equal pulls do not double)")
         ->check(CLI::IsMember({"sum", "parallel"}))
         ->capture_default_str();

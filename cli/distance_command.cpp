@@ -11,6 +11,7 @@
 #include "geometry/errors.h"
 #include "geometry/mesh_io.h"
 #include "geometry/points_csv.h"
+#include "geometry/text.h"
 
 namespace mimik::cli {
 namespace {
@@ -24,9 +25,7 @@ struct Request {
 };
 
 geometry::Mesh read_test(const std::filesystem::path& file) {
-    auto extension = file.extension().string();
-    for (auto& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (extension != ".csv") return geometry::read_mesh(file);
+    if (geometry::lower_case(file.extension().string()) != ".csv") return geometry::read_mesh(file);
     geometry::Mesh cloud;
     cloud.vertices_mm = geometry::read_points_csv(file).points;
     return cloud;

@@ -8,7 +8,8 @@ void MethodArguments::add_to(CLI::App& command) {
         ->capture_default_str();
     command.add_option("--catalogue", catalogue_file, "Another FACS catalogue (TOML) than the built-in one")
         ->check(CLI::ExistingFile);
-    command.add_option("--kernel", kernel, "Spline kernel, if not the method's own")
+    command
+        .add_option("--kernel", kernel, "Spline kernel; another than the method's own passes through every landmark")
         ->check(CLI::IsMember({"r", "r2logr"}));
     command.add_flag("--no-anchors", no_anchors, "Let the splines move what the AU leaves alone");
 }
@@ -17,17 +18,31 @@ modeling::FacsCatalogue MethodArguments::catalogue() const {
     return catalogue_file.empty() ? modeling::builtin_catalogue() : modeling::read_catalogue(catalogue_file);
 }
 
+namespace {
+
+/// The switches that models and animations share. `smoothing` is in the unit of the kernel: what was chosen for one
+/// says nothing for the other, so another kernel than the method's own passes through every landmark.
+template <typename Options>
+void apply_switches(const MethodArguments& arguments, Options& options, double& smoothing) {
+    if (!arguments.kernel.empty()) {
+        const auto kernel = arguments.kernel == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
+        if (kernel != options.kernel) smoothing = 0;
+        options.kernel = kernel;
+    }
+    if (arguments.no_anchors) options.anchors = false;
+}
+
+}  // namespace
+
 modeling::ModelOptions MethodArguments::model_options() const {
     auto options = thesis() ? modeling::ModelOptions::thesis() : modeling::ModelOptions{};
-    if (!kernel.empty()) options.kernel = kernel == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
-    if (no_anchors) options.anchors = false;
+    apply_switches(*this, options, options.smoothing);
     return options;
 }
 
 animation::AnimationOptions MethodArguments::animation_options() const {
     auto options = thesis() ? animation::AnimationOptions::thesis() : animation::AnimationOptions{};
-    if (!kernel.empty()) options.kernel = kernel == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
-    if (no_anchors) options.anchors = false;
+    apply_switches(*this, options, options.landmark_smoothing);
     return options;
 }
 

@@ -184,7 +184,8 @@ GlbMesh compacted(const GlbMesh& mesh) {
     small.colours = gathered(mesh.colours, used);
     for (const auto& t : mesh.triangles) small.triangles.push_back({new_index[t[0]], new_index[t[1]], new_index[t[2]]});
     for (const auto& target : mesh.morph_targets)
-        small.morph_targets.push_back({target.name, gathered(target.displacement_mm, used), target.weight});
+        small.morph_targets.push_back(
+            {target.name, gathered(target.displacement_mm, used), target.weight, target.arkit_name});
     return small;
 }
 
@@ -212,7 +213,8 @@ Json mesh_json(const GlbMesh& source, std::optional<std::size_t> material, Buffe
     Json json = {{"name", source.name}};
     auto extras = object_of(source.extras);
     if (!mesh.morph_targets.empty()) {
-        Json targets = Json::array(), names = Json::array(), weights = Json::array();
+        Json targets = Json::array(), names = Json::array(), arkit_names = Json::array(), weights = Json::array();
+        bool arkit = false;
         for (const auto& target : mesh.morph_targets) {
             auto moved = mesh.positions_mm;
             for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += target.displacement_mm[i];
@@ -224,11 +226,14 @@ Json mesh_json(const GlbMesh& source, std::optional<std::size_t> material, Buffe
             targets.push_back({{"POSITION", buffer.add_floats(target.displacement_mm, metres_per_mm, true)},
                                {"NORMAL", buffer.add_floats(normals, 1.0, false)}});
             names.push_back(target.name);
+            arkit_names.push_back(target.arkit_name);
+            arkit = arkit || !target.arkit_name.empty();
             weights.push_back(target.weight);
         }
         primitive["targets"] = targets;
         json["weights"] = weights;
         extras["targetNames"] = names;
+        if (arkit) extras["arkitNames"] = arkit_names;
     }
     json["primitives"] = Json::array({primitive});
     if (!extras.empty()) json["extras"] = extras;

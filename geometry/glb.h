@@ -17,6 +17,7 @@ struct MorphTarget {
     std::string name;                     ///< shown by viewers, e.g. "AU12_L" or an ARKit name
     std::vector<Vector> displacement_mm;  ///< one per vertex, at weight 1
     double weight = 0.0;                  ///< that the file opens with
+    std::string arkit_name = {};          ///< of the same shape in ARKit; empty: none
 };
 
 struct GlbMesh {
@@ -38,7 +39,7 @@ struct GlbScene {
 
 /// glTF 2.0, binary: metres, v counted downward, 32-bit floats. Vertices that no triangle uses are left out (so bridged
 /// or outside vertices may hold NaN). Morph targets carry the change of the normals too; mesh.extras.targetNames names
-/// them.
+/// them; if ARKit has any of them, mesh.extras.arkitNames has its names in the same order, "" where there is none.
 /// @throws InputError naming the mesh and the part that does not fit or is not finite.
 [[nodiscard]] std::vector<std::uint8_t> encode_glb(const GlbScene& scene);
 void write_glb(const std::filesystem::path& file, const GlbScene& scene);

@@ -1,12 +1,17 @@
 #include "animation/animate.h"
 
-#include <Eigen/Dense>
+#include <cstring>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "animation/face_export.h"
 #include "geometry/errors.h"
+#include "geometry/file.h"
+#include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
+#include "tests/support/dense_spline.h"
 
 namespace mimik::animation {
 namespace {
@@ -147,33 +152,18 @@ TEST_F(Animate, the_thesis_warp_equals_a_direct_dense_solve_of_its_system) {
     std::vector<CarriedPoint> points;
     const auto field = expression_field(target, model, options, &points);
 
-    // Eqs 4.11-4.19 as they stand, in long double, on the controls that were used.
-    using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-    const auto n = static_cast<Eigen::Index>(points.size());
-    Matrix from(n, 3), to(n, 3);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const Point p = target.average_from_scan() * points[static_cast<std::size_t>(i)].position_mm;
-        const Vector d = target.average_from_scan().linear() * points[static_cast<std::size_t>(i)].displacement_mm;
-        from.row(i) = p.cast<long double>().transpose();
-        to.row(i) = (p + d).cast<long double>().transpose();
+    std::vector<Point> from, to;
+    for (const auto& point : points) {
+        from.emplace_back(target.average_from_scan() * point.position_mm);
+        to.emplace_back(from.back() + target.average_from_scan().linear() * point.displacement_mm);
     }
-    const auto u = [](long double r2) { return r2 > 0 ? r2 * std::log(r2) : 0.0L; };
-    Matrix system = Matrix::Zero(n + 4, n + 4), right = Matrix::Zero(n + 4, 3);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        for (Eigen::Index j = 0; j < n; ++j) system(i, j) = u((from.row(i) - from.row(j)).squaredNorm());
-        system(i, n) = system(n, i) = 1;
-        for (Eigen::Index k = 0; k < 3; ++k) system(i, n + 1 + k) = system(n + 1 + k, i) = from(i, k);
-    }
-    right.topRows(n) = to;
-    const Matrix solution = system.fullPivLu().solve(right);
+    const test::DenseSpline dense(from, to);
     double worst = 0;
     std::size_t compared = 0;
     for (std::size_t v = 0; v < field.size(); v += 17) {
         if (field[v].norm() == 0) continue;
-        const Eigen::Matrix<long double, 1, 3> x = target.vertices_mm()[v].cast<long double>().transpose();
-        Eigen::Matrix<long double, 1, 3> f = solution.row(n) + x * solution.bottomRows(3);
-        for (Eigen::Index i = 0; i < n; ++i) f += u((x - from.row(i)).squaredNorm()) * solution.row(i);
-        worst = std::max(worst, static_cast<double>(((f - x).transpose() - field[v].cast<long double>()).norm()));
+        const Point& x = target.vertices_mm()[v];
+        worst = std::max(worst, (dense(x) - x - field[v]).norm());
         ++compared;
     }
     EXPECT_GT(compared, 100U);
@@ -195,6 +185,261 @@ TEST_F(Animate, exports_leave_out_what_was_not_measured_and_keep_the_displacemen
     EXPECT_EQ(mesh.attributes[0].name, "displacement_mm");
     EXPECT_EQ(mesh.attributes[0].values.size(), 3 * measured);
     EXPECT_THROW(write_animated_face("face.stl", animated, target, {}, {}), InputError);
+}
+
+TEST_F(Animate, the_thesis_landmark_splines_equal_a_direct_dense_solve_too) {
+    const auto model = smile(modeling::ModelOptions::thesis());
+    // Eq. 5.5, neutral to expressive: the model keeps how far from its nearest vertex each control was carried.
+    const auto& neutral = source_->neutral;
+    const auto& smiling = source_->smiling;
+    const auto expressive_from_neutral =
+        test::DenseSpline::between(geometry::transformed(neutral.snapped_landmarks, neutral.average_from_scan_affine),
+                                   geometry::transformed(smiling.snapped_landmarks, smiling.average_from_scan_affine));
+    ASSERT_GT(model.points.size(), 5U);
+    for (const auto& point : model.points) {
+        const Point found = point.position_mm + point.displacement_mm;
+        EXPECT_NEAR((found - expressive_from_neutral(point.position_mm)).norm(), point.projection_mm, 1e-9)
+            << point.name;  // as for the warp
+    }
+    // Eq. 5.7, model to target.
+    const TargetFace target(target_->neutral, modeling::Frame::affine, true);
+    std::vector<CarriedPoint> carried;
+    (void)expression_field(target, model, AnimationOptions::thesis(), &carried);
+    ASSERT_EQ(carried.size(), model.points.size());
+    const auto target_from_model = test::DenseSpline::between(
+        model.landmarks,
+        geometry::transformed(target_->neutral.snapped_landmarks, target_->neutral.average_from_scan_affine));
+    for (std::size_t k = 0; k < carried.size(); ++k) {
+        const Point on_face = target.average_from_scan() * carried[k].position_mm;
+        EXPECT_NEAR((on_face - target_from_model(model.points[k].position_mm)).norm(), carried[k].projection_mm, 1e-9)
+            << carried[k].name;
+    }
+}
+
+TEST_F(Animate, in_the_thesis_way_landmarks_and_carried_points_are_vertices) {
+    const TargetFace target(target_->neutral, modeling::Frame::affine, true);
+    for (const auto& mark : target_->neutral.snapped_landmarks.all())
+        EXPECT_EQ(target.landmarks().position_mm(mark.name), target.average_from_scan() * mark.position_mm);
+    const TargetFace free(target_->neutral, modeling::Frame::affine, false);
+    EXPECT_EQ(free.landmarks().position_mm("chin"),
+              free.average_from_scan() * target_->neutral.landmarks.position_mm("chin"));
+
+    std::vector<CarriedPoint> points;
+    (void)expression_field(target, smile(modeling::ModelOptions::thesis()), AnimationOptions::thesis(), &points);
+    ASSERT_FALSE(points.empty());
+    const auto& grid = target_->neutral.grid;
+    for (const auto& point : points) {
+        double nearest_mm = 1e9;
+        for (std::size_t v = 0; v < grid.size(); ++v)
+            if (grid.inside(v)) nearest_mm = std::min(nearest_mm, (grid.vertices_mm[v] - point.position_mm).norm());
+        EXPECT_LT(nearest_mm, 1e-9) << point.name;  // rounding: to the average frame and back
+    }
+}
+
+TEST_F(Animate, lower_face_units_alone_scale_with_the_width_of_the_mouth) {
+    auto model = smile();
+    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    model.mouth_width_mm = target.mouth_width_mm() / 1.3;
+    const auto ratio_is = [&](double expected) {
+        std::vector<CarriedPoint> points;
+        (void)expression_field(target, model, {}, &points);
+        std::size_t compared = 0;
+        for (const auto& point : points)
+            for (const auto& own : model.points)
+                if (own.name == point.name && own.kind == modeling::ControlKind::muscle) {
+                    const Vector moved = target.average_from_scan().linear() * point.displacement_mm;
+                    EXPECT_LT((moved - expected * own.displacement_mm).norm(), 1e-9) << point.name;  // rounding
+                    ++compared;
+                }
+        EXPECT_GT(compared, 0U);
+    };
+    ratio_is(1.3);  // Eq. 5.8
+    model.moves_upper_face = true;
+    ratio_is(1.0);
+}
+
+TEST_F(Animate, a_unit_fades_over_the_border_of_its_region) {
+    auto model = smile();
+    // Something to see at the border: the same large push everywhere.
+    for (auto& point : model.points) point.displacement_mm = {0, 3, 1};
+    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    AnimationOptions options;
+    options.mouth_ratio = false;
+    const auto faded = expression_field(target, model, options);
+    model.moves_upper_face = true;
+    const auto whole = expression_field(target, model, options);
+    // A quarter of the way from the eyes to the nose tip; the head turns about y alone, so up is y.
+    const auto& marks = target_->neutral.landmarks;
+    const double eyes = 0.25 * (marks.position_mm("eye_outer_left") + marks.position_mm("eye_outer_right") +
+                                marks.position_mm("eye_inner_left") + marks.position_mm("eye_inner_right"))
+                                   .y();
+    const double border = eyes + 0.25 * (marks.position_mm("nose_tip").y() - eyes);
+    double at_3_mm_below = 0, at_3_mm_above = 0;
+    int below = 0, above = 0;
+    const auto& grid = target_->neutral.grid;
+    for (std::size_t v = 0; v < grid.size(); ++v) {
+        if (!grid.measured(v) || whole[v].norm() < 1) continue;
+        const double height_mm = grid.vertices_mm[v].y() - border;
+        const double share = faded[v].norm() / whole[v].norm();
+        if (std::abs(height_mm + 3) < 1) at_3_mm_below += share, ++below;
+        if (std::abs(height_mm - 3) < 1) at_3_mm_above += share, ++above;
+    }
+    ASSERT_GT(below, 20);
+    ASSERT_GT(above, 20);
+    // t = 0.5 +- 3 / 12: t^2 (3 - 2 t) = 0.844 and 0.156. "Up" leans with the chin by a few degrees.
+    EXPECT_NEAR(at_3_mm_below / below, 0.844, 0.1);
+    EXPECT_NEAR(at_3_mm_above / above, 0.156, 0.1);
+}
+
+TEST_F(Animate, a_vertex_keeps_as_much_of_its_displacement_as_it_is_given) {
+    const auto model = smile();
+    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const auto whole = expression_field(target, model, {});
+    AnimationOptions options;
+    options.keep.assign(whole.size(), 0.25);
+    const auto held = expression_field(target, model, options);
+    for (std::size_t v = 0; v < whole.size(); ++v)
+        ASSERT_LT((held[v] - 0.25 * whole[v]).norm(), 1e-12) << v;  // rounding
+    options.keep.pop_back();
+    EXPECT_THROW((void)expression_field(target, model, options), InputError);
+}
+
+TEST_F(Animate, points_are_merged_where_they_fall_together_and_only_there) {
+    auto model = smile();
+    auto point = model.points.front();
+    std::vector<modeling::ModelPoint> points{point};
+    point.name = "three_millimetres_off";
+    point.position_mm.x() += 3;
+    points.push_back(point);
+    point.name = "on_top";
+    point.position_mm.x() -= 2.9;
+    points.push_back(point);
+    for (const auto& anchor : model.points)
+        if (anchor.kind == modeling::ControlKind::anchor) points.push_back(anchor);
+    model.points = points;
+    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    std::vector<CarriedPoint> carried;
+    std::vector<std::string> remarks;
+    (void)expression_field(target, model, {}, &carried, &remarks);
+    std::vector<std::string> names;
+    for (const auto& one : carried) names.push_back(one.name);
+    EXPECT_THAT(names, testing::Contains("three_millimetres_off"));
+    EXPECT_THAT(names, testing::Not(testing::Contains("on_top")));
+    EXPECT_THAT(remarks, testing::Contains(HasSubstr("'on_top' falls on")));
+}
+
+TEST_F(Animate, in_the_average_frame_positions_and_displacements_turn_alike) {
+    const auto model = smile();
+    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const WeightedExpression weighted{&model, 1.0};
+    const auto animated = animate(target, std::span(&weighted, 1));
+    const auto mesh = to_mesh(animated, target, {.frame = OutputFrame::average});
+    const auto& moved = mesh.attributes.front();
+    ASSERT_EQ(moved.name, "displacement_mm");
+    std::size_t k = 0;
+    for (std::size_t v = 0; v < animated.grid.size(); ++v) {
+        if (!animated.grid.measured(v)) continue;
+        const Vector turned = target.average_from_scan().linear() * animated.displacement_mm[v];
+        const Vector written(moved.values[3 * k], moved.values[3 * k + 1], moved.values[3 * k + 2]);
+        ASSERT_LT((written - turned).norm(), 1e-9) << v;  // rounding
+        ASSERT_LT((mesh.vertices_mm[k] - target.average_from_scan() * animated.grid.vertices_mm[v]).norm(), 1e-9) << v;
+        ++k;
+    }
+    EXPECT_EQ(k, mesh.vertices_mm.size());
+}
+
+/// What a viewer reads of a GLB: its description, and the floats of an accessor.
+struct ReadGlb {
+    explicit ReadGlb(const std::filesystem::path& file) : bytes(geometry::read_bytes(file)) {
+        std::uint32_t length = 0;
+        std::memcpy(&length, bytes.data() + 12, 4);
+        json = nlohmann::json::parse(bytes.begin() + 20, bytes.begin() + 20 + length);
+        binary = 20 + length + 8;
+    }
+    [[nodiscard]] std::vector<float> floats(std::size_t accessor) const {
+        const auto& view = json["bufferViews"][json["accessors"][accessor]["bufferView"].get<std::size_t>()];
+        std::vector<float> values(view["byteLength"].get<std::size_t>() / 4);
+        std::memcpy(values.data(), bytes.data() + binary + view["byteOffset"].get<std::size_t>(), 4 * values.size());
+        return values;
+    }
+    /// The largest length of a morph target's displacements.
+    [[nodiscard]] double largest_mm(std::size_t morph) const {
+        const auto values = floats(json["meshes"][0]["primitives"][0]["targets"][morph]["POSITION"].get<std::size_t>());
+        double largest = 0;
+        for (std::size_t k = 0; k + 2 < values.size(); k += 3)
+            largest = std::max(largest, 1000.0 * std::hypot(values[k], values[k + 1], values[k + 2]));
+        return largest;
+    }
+    std::vector<std::uint8_t> bytes;
+    std::size_t binary = 0;
+    nlohmann::json json;
+};
+
+double largest_mm(const AnimatedFace& face, const std::vector<Vector>& field) {
+    double largest = 0;
+    for (std::size_t v = 0; v < field.size(); ++v)
+        if (face.grid.measured(v)) largest = std::max(largest, field[v].norm());
+    return largest;
+}
+
+TEST_F(Animate, morph_targets_hold_the_fields_at_magnitude_one_with_the_name_that_arkit_has) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "face.glb";
+    const auto left = smile({}, "12L"), both = smile();
+    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const std::array expressions = {WeightedExpression{&left, 0.5}, WeightedExpression{&both, 0.25}};
+    const auto animated = animate(target, expressions);
+    std::vector<NamedMagnitude> names = {{"AU12_L", 0.5, "mouthSmileLeft"}, {"AU12", 0.25, ""}};
+    EXPECT_TRUE(write_animated_face(file, animated, target, names, {}).empty());
+    const ReadGlb glb(file);
+    const auto& mesh = glb.json["meshes"][0];
+    EXPECT_EQ(mesh["extras"]["targetNames"], nlohmann::json({"AU12_L", "AU12"}));
+    EXPECT_EQ(mesh["extras"]["arkitNames"], nlohmann::json({"mouthSmileLeft", ""}));
+    EXPECT_EQ(mesh["weights"], nlohmann::json({0.5, 0.25}));
+    for (std::size_t k = 0; k < 2; ++k)
+        EXPECT_NEAR(glb.largest_mm(k), largest_mm(animated, animated.fields_mm[k]), 1e-5);  // 32-bit floats
+    // Not turned round either: the left corner of the mouth goes to the subject's left.
+    const auto values = glb.floats(mesh["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>());
+    double sum_x = 0, sum_field_x = 0;
+    for (std::size_t k = 0; k < values.size(); k += 3) sum_x += 1000.0 * static_cast<double>(values[k]);
+    for (std::size_t v = 0; v < animated.grid.size(); ++v)
+        if (animated.grid.measured(v)) sum_field_x += animated.fields_mm[0][v].x();
+    EXPECT_GT(sum_x * sum_field_x, 0);
+    names[1].name = "AU12_L";
+    EXPECT_THAT(database::message_of<InputError>([&] { (void)write_animated_face(file, animated, target, names, {}); }),
+                HasSubstr("two morph targets would be called AU12_L"));
+}
+
+TEST_F(Animate, a_parallel_resultant_is_one_morph_target_and_a_remark_says_so) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "face.glb";
+    const auto left = smile({}, "12L"), both = smile();
+    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const std::array expressions = {WeightedExpression{&left, 1.0}, WeightedExpression{&both, 1.0}};
+    AnimationOptions options;
+    options.combination = Combination::parallel;
+    const auto animated = animate(target, expressions, options);
+    const std::vector<NamedMagnitude> names = {{"AU12_L", 1.0, "mouthSmileLeft"}, {"AU12", 1.0, ""}};
+    EXPECT_THAT(write_animated_face(file, animated, target, names, {}),
+                testing::ElementsAre(HasSubstr("one, AU12_L+AU12")));
+    const ReadGlb glb(file);
+    EXPECT_EQ(glb.json["meshes"][0]["extras"]["targetNames"], nlohmann::json({"AU12_L+AU12"}));
+    EXPECT_EQ(glb.json["meshes"][0]["weights"], nlohmann::json({1.0}));
+    EXPECT_NEAR(glb.largest_mm(0), largest_mm(animated, animated.displacement_mm), 1e-5);  // 32-bit floats
+}
+
+TEST_F(Animate, a_picture_beside_the_face_is_not_overwritten_by_its_texture) {
+    const database::TemporaryFolder folder;
+    geometry::write_atomically(folder.path() / "face.png", "picture");
+    geometry::write_atomically(folder.path() / "scan.png", "photograph");
+    const auto model = smile();
+    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const WeightedExpression weighted{&model, 1.0};
+    const auto animated = animate(target, std::span(&weighted, 1));
+    write_animated_face(folder.path() / "face.ply", animated, target, {}, folder.path() / "scan.png");
+    EXPECT_EQ(geometry::read_text(folder.path() / "face.png"), "picture");
+    EXPECT_EQ(geometry::read_text(folder.path() / "face_texture.png"), "photograph");
+    EXPECT_THAT(geometry::read_text(folder.path() / "face.ply").substr(0, 400), HasSubstr("face_texture.png"));
 }
 
 TEST(AnimationOptions, defaults_and_the_thesis_are_valid_and_negative_smoothing_is_not) {

@@ -43,6 +43,13 @@ cmp face.glb named.glb
 "$mimik" panels work1 --source bs000 --target bs001 --au AU12_L -o panels --dry-run | grep -q "AU12_L_bs000_on_bs001"
 claim "an expression may be typed in every way in which it is written"
 
+"$mimik" model work1 --source bs000 --expression 12 -o models --quiet
+"$mimik" animate work1 --source bs000 --target bs001 --au 12:0.5 -o measured.glb --quiet
+"$mimik" animate work1 --target bs001 --model models/bs000/AU12.json:0.5 -o stored.glb --quiet
+cmp measured.glb stored.glb
+expect_code 2 "nothing to animate" "$mimik" animate work1 --target bs001 -o nothing.ply
+claim "a stored model animates as the one that is measured does"
+
 for extension in ply obj vtp; do
   "$mimik" animate work1 --source bs000 --target bs001 --au 12 --method thesis -o "face.$extension" --quiet
   [ -s "face.$extension" ]
