@@ -2,20 +2,7 @@
 # end_to_end.sh MIMIK FOLDER: the whole way of a user, with three built-in subjects; every claim is checked, the first that
 # fails ends it.
 set -euo pipefail
-mimik=$1
-folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
-
-claim() { echo "checked: $1"; }
-expect_code() {  # code, word of the message, command...
-  local wanted=$1 word=$2 code=0
-  shift 2
-  "$@" >out.txt 2>err.txt || code=$?
-  [ "$code" -eq "$wanted" ] || { cat out.txt err.txt; echo "exit code $code, not $wanted: $*"; exit 1; }
-  grep -qF -- "$word" err.txt || { cat err.txt; echo "no word of '$word': $*"; exit 1; }
-}
+source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
 
 # Seed 5 has closed lips whose two inner landmarks share a vertex: once that stopped a whole database.
 for threads in 1 2; do

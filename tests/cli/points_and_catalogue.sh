@@ -2,23 +2,8 @@
 # points_and_catalogue.sh MIMIK FOLDER: warp, distance and catalogue as a shell meets them, on files small enough to know the
 # answers by heart; the first claim that fails ends it.
 set -euo pipefail
-mimik=$1
-folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
 
-claim() { echo "checked: $1"; }
-fail() { echo "failed: $1"; exit 1; }
-expect_code() {  # code, words that the message must have (one per line), command...
-  local wanted=$1 words=$2 code=0
-  shift 2
-  "$@" >out.txt 2>err.txt || code=$?
-  [ "$code" -eq "$wanted" ] || { cat out.txt err.txt; fail "exit code $code, not $wanted: $*"; }
-  while read -r word; do
-    cat out.txt err.txt | grep -qF -- "$word" || { cat out.txt err.txt; fail "no word of '$word': $*"; }
-  done <<<"$words"
-}
 # A row of a points CSV is what it must be, within 1e-9: coordinates below 100 round at 1e-14, the solve adds a few digits.
 expect_row() {  # file, name, x y z
   awk -F, -v name="$2" -v x="$3" -v y="$4" -v z="$5" '
