@@ -379,13 +379,17 @@ struct SurfaceIndex::Impl {
                     const auto edge = ends(t, k);
                     other_end[list_end[edge.first]++] = edge.second;
                 }
-        // Sorted: a hub of a hundred thousand edges must not cost their square.
+        // A hub of a hundred thousand edges must not cost their square: long lists are sorted. The six or so of a
+        // scan's vertex are counted faster than they are put in order.
+        constexpr std::uint32_t short_list = 16;
         for (std::size_t v = 0; v < vertices.size(); ++v)
-            std::sort(other_end.data() + list_begin[v], other_end.data() + list_end[v]);
+            if (list_end[v] - list_begin[v] > short_list)
+                std::sort(other_end.data() + list_begin[v], other_end.data() + list_end[v]);
         const auto single = [&](const std::pair<std::uint32_t, std::uint32_t>& edge) {
-            const auto* list = other_end.data();
-            const auto [low, high] =
-                std::equal_range(list + list_begin[edge.first], list + list_end[edge.first], edge.second);
+            const auto* begin = other_end.data() + list_begin[edge.first];
+            const auto* end = other_end.data() + list_end[edge.first];
+            if (end - begin <= short_list) return std::count(begin, end, edge.second) == 1;
+            const auto [low, high] = std::equal_range(begin, end, edge.second);
             return high - low == 1;
         };
         std::vector<std::uint8_t> marked(vertices.size(), 0);

@@ -1,6 +1,7 @@
 #include "preprocessing/cleaning.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -90,37 +91,30 @@ Neighbours cloud_neighbours(const RangeScan& scan) {
     return neighbours;
 }
 
-/// Marks spikes in `dropped`; a point with fewer than three neighbours cannot be judged and stays.
-std::size_t drop_spikes(const RangeScan& scan, const Neighbours& neighbours, double spike_mm,
-                        std::vector<char>& dropped) {
-    // Judged on the data as they came in, so the answer does not depend on the order of the points.
-    std::vector<char> spike(dropped.size(), 0);
-    std::vector<double> depths;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
-        if (dropped[i] || !scan.valid(i)) continue;
-        const double z = scan.points_mm[i].z();
-        depths.clear();
+/// 1 for a spike; a point with fewer than three neighbours cannot be judged and is none.
+std::vector<char> find_spikes(const RangeScan& scan, const Neighbours& neighbours, double spike_mm) {
+    std::vector<char> spike(scan.points_mm.size(), 0);
+    std::vector<double> depth_of(scan.points_mm.size()), depths;
+    for (std::size_t i = 0; i < depth_of.size(); ++i) depth_of[i] = scan.points_mm[i].z();
+    for (std::size_t i = 0; i < spike.size(); ++i) {
+        const auto first = neighbours.index.begin() + static_cast<std::ptrdiff_t>(neighbours.first[i]);
+        const auto last = neighbours.index.begin() + static_cast<std::ptrdiff_t>(neighbours.first[i + 1]);
+        if (last - first < 3) continue;
         double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-        for (std::size_t k = neighbours.first[i]; k < neighbours.first[i + 1]; ++k) {
-            const auto other = neighbours.index[k];
-            if (dropped[other]) continue;
-            const double depth = scan.points_mm[other].z();
-            lowest = std::min(lowest, depth);
-            highest = std::max(highest, depth);
-            depths.push_back(depth);
+        for (auto other = first; other != last; ++other) {
+            lowest = std::min(lowest, depth_of[*other]);
+            highest = std::max(highest, depth_of[*other]);
         }
         // Most points lie within the depths around them, give or take: the median is needed for the few others only.
-        if (depths.size() < 3 || (z <= lowest + spike_mm && z >= highest - spike_mm)) continue;
+        const double z = depth_of[i];
+        if (z <= lowest + spike_mm && z >= highest - spike_mm) continue;
+        depths.clear();
+        std::transform(first, last, std::back_inserter(depths), [&](std::uint32_t other) { return depth_of[other]; });
         const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
         std::nth_element(depths.begin(), middle, depths.end());
-        if (std::abs(z - *middle) > spike_mm) {
-            spike[i] = 1;
-            ++count;
-        }
+        spike[i] = std::abs(z - *middle) > spike_mm ? 1 : 0;
     }
-    for (std::size_t i = 0; i < dropped.size(); ++i) dropped[i] = static_cast<char>(dropped[i] | spike[i]);
-    return count;
+    return spike;
 }
 
 std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
@@ -138,8 +132,8 @@ RangeScan clean(const RangeScan& scan, const CleaningOptions& options, CleaningR
     if (counts.points == 0) throw InputError("the scan holds no measured point");
 
     const Neighbours neighbours = scan.organised() ? lattice_neighbours(scan, 2) : cloud_neighbours(scan);
-    std::vector<char> dropped(n, 0);
-    counts.spikes = drop_spikes(scan, neighbours, options.spike_mm, dropped);
+    std::vector<char> dropped = find_spikes(scan, neighbours, options.spike_mm);
+    counts.spikes = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), 1));
 
     // Parts: neighbours that lie close in space hang together.
     std::vector<std::uint32_t> parent(n);
@@ -148,7 +142,7 @@ RangeScan clean(const RangeScan& scan, const CleaningOptions& options, CleaningR
         if (dropped[i] || !scan.valid(i)) continue;
         for (std::size_t k = neighbours.first[i]; k < neighbours.first[i + 1]; ++k) {
             const auto other = neighbours.index[k];
-            if (other > i || dropped[other]) continue;
+            if (other > i || dropped[other] || parent[other] == parent[i]) continue;
             if ((scan.points_mm[i] - scan.points_mm[other]).squaredNorm() > options.max_jump_mm * options.max_jump_mm)
                 continue;
             const auto a = root(parent, static_cast<std::uint32_t>(i)), b = root(parent, other);

@@ -26,6 +26,8 @@ void RigidAlignmentOptions::check() const {
 
 namespace {
 
+constexpr double coarse_slack = 5.0;  // steps end so many times sooner while few of the points take part
+
 struct Pair {
     Point moved_mm;
     Point target_mm;
@@ -75,14 +77,23 @@ RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::S
             throw InputError(fmt::format("a weight is {}; give 0 or more", weight));
     const auto vertices = target.vertices_mm();
     const auto triangles = target.triangles();
-    const auto points = thinned<Point>(source_mm, options.max_points);
-    const auto weight_of = thinned<double>(weights, options.max_points);
+    std::vector<Point> points, moved;
+    std::vector<double> weight_of;
+    std::vector<std::uint32_t> near;  // where each point was last: it moves little from step to step
+    std::vector<Pair> pairs;
     RigidAlignment result;
     result.target_from_source = start;
 
-    std::vector<Point> moved(points.size());
-    std::vector<std::uint32_t> near;  // where each point was last: it moves little from step to step
-    std::vector<Pair> pairs;
+    // Most of the way goes with a few of the points; all that may take part decide where it ends.
+    bool coarse =
+        options.coarse_points > 0 && 2 * options.coarse_points <= std::min(source_mm.size(), options.max_points);
+    const auto take = [&](std::size_t most) {
+        points = thinned<Point>(source_mm, most);
+        weight_of = thinned<double>(weights, most);
+        moved.resize(points.size());
+        near.clear();
+    };
+    take(coarse ? options.coarse_points : options.max_points);
     while (result.iterations < options.max_iterations && !result.converged) {
         ++result.iterations;
         std::transform(points.begin(), points.end(), moved.begin(),
@@ -104,6 +115,11 @@ RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::S
                 {moved[k], hits[k].position_mm, normal, hits[k].distance_mm, weight_of.empty() ? 1.0 : weight_of[k]});
         }
         const auto kept = static_cast<std::size_t>(std::ceil(options.trim * static_cast<double>(pairs.size())));
+        if (coarse && kept < 30) {
+            take(options.max_points);
+            coarse = false;
+            continue;
+        }
         if (kept < 30)
             throw NumericalError(
                 fmt::format("rigid alignment: only {} of {} points found a partner on the other scan; "
@@ -141,8 +157,14 @@ RigidAlignment align_rigidly(std::span<const Point> source_mm, const geometry::S
         const Eigen::AngleAxisd turn(angle, angle > 0 ? Vector(rotation / angle) : Vector(Vector::UnitX()));
         result.target_from_source = Eigen::Translation3d(centre + step.tail<3>()) * turn *
                                     Eigen::Translation3d(-centre) * result.target_from_source;
-        result.converged = angle * 180.0 / std::numbers::pi < options.stop_rotation_deg &&
-                           step.tail<3>().norm() < options.stop_shift_mm;
+        const double slack = coarse ? coarse_slack : 1.0;
+        const bool settled = angle * 180.0 / std::numbers::pi < slack * options.stop_rotation_deg &&
+                             step.tail<3>().norm() < slack * options.stop_shift_mm;
+        if (settled && coarse) {
+            take(options.max_points);
+            coarse = false;
+        } else
+            result.converged = settled;
     }
     return result;
 }

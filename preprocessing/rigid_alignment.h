@@ -16,6 +16,8 @@ struct RigidAlignmentOptions {
     double stop_rotation_deg = 2e-3;
     double stop_shift_mm = 2e-3;
     std::size_t max_points = 2000;  ///< of the source, evenly through the list
+    /// The first steps, until they are small, are made with so many points; 0: with all of max_points.
+    std::size_t coarse_points = 400;
     void check() const;
 };
 

@@ -40,12 +40,12 @@ fs::path average_stem(const fs::path& root) { return root / "average" / "average
 constexpr int steps_version = 2;
 
 std::string describe(const PreprocessOptions& o) {
-    return fmt::format("steps {} clean {} {} {} grid {} {} edge {} {} lattice {} icp {} {} {} {} {} {}", steps_version,
-                       o.cleaning.spike_mm, o.cleaning.max_jump_mm, o.cleaning.min_part, o.gridding.rows,
+    return fmt::format("steps {} clean {} {} {} grid {} {} edge {} {} lattice {} icp {} {} {} {} {} {} {}",
+                       steps_version, o.cleaning.spike_mm, o.cleaning.max_jump_mm, o.cleaning.min_part, o.gridding.rows,
                        o.gridding.cols, o.gridding.max_edge_mm.value_or(0), o.gridding.max_edge_spacings,
                        o.gridding.use_lattice, o.alignment.trim, o.alignment.max_distance_mm,
-                       o.alignment.max_iterations, o.alignment.max_points, o.alignment.stop_rotation_deg,
-                       o.alignment.stop_shift_mm);
+                       o.alignment.max_iterations, o.alignment.max_points, o.alignment.coarse_points,
+                       o.alignment.stop_rotation_deg, o.alignment.stop_shift_mm);
 }
 
 std::string describe(const AverageFaceOptions& o) {

@@ -134,6 +134,38 @@ TEST(RigidAlignment, a_tenth_of_the_points_finds_the_same_motion) {
     for (const auto& p : source) ASSERT_LT((some.target_from_source * p - all.target_from_source * p).norm(), 0.03);
 }
 
+TEST(RigidAlignment, first_steps_with_few_points_end_where_all_points_end) {
+    const test::AnalyticFace face;
+    const auto target = surface_of(face);
+    const Transform target_from_source(Eigen::Translation3d(1, 2, -1) * Eigen::AngleAxisd(0.03, Point::UnitY()));
+    std::vector<Point> source;
+    for (double y = 0; y <= 60; y += 1)
+        for (double x = -50; x <= 50; x += 1) source.push_back(target_from_source.inverse() * face.point(x, y));
+    const geometry::SurfaceIndex index(target.vertices, target.triangles);
+    const auto coarse = align_rigidly(source, index, Transform::Identity(), {.coarse_points = 200});
+    const auto plain = align_rigidly(source, index, Transform::Identity(), {.coarse_points = 0});
+    EXPECT_TRUE(coarse.converged);
+    EXPECT_EQ(coarse.pairs_used, plain.pairs_used);  // the last step is made with all
+    EXPECT_NEAR(coarse.rms_mm, plain.rms_mm, 1e-3);
+    // Both stop within some steps of 0.002 mm of the same pose.
+    for (const auto& p : source) ASSERT_LT((coarse.target_from_source * p - plain.target_from_source * p).norm(), 0.03);
+}
+
+TEST(RigidAlignment, too_few_points_in_the_first_steps_leave_the_work_to_all) {
+    // Every 50th point lies on the face, and the first steps, which take every 5th, see too few of them.
+    const test::AnalyticFace face;
+    const auto target = surface_of(face);
+    std::vector<Point> source;
+    for (double y = 0; y <= 60; y += 1)
+        for (double x = -50; x <= 50; x += 1)
+            source.push_back(source.size() % 50 == 0 ? face.point(x, y) : Point(0, 0, 5000));
+    const geometry::SurfaceIndex index(target.vertices, target.triangles);
+    const auto found =
+        align_rigidly(source, index, Transform::Identity(), {.trim = 1.0, .max_points = 10'000, .coarse_points = 1000});
+    EXPECT_TRUE(found.converged);
+    EXPECT_GT(found.pairs_used, 30U);
+}
+
 TEST(RigidAlignmentOptions, defaults_are_valid_and_a_trim_of_zero_is_not) {
     EXPECT_NO_THROW(RigidAlignmentOptions{}.check());
     EXPECT_THROW(RigidAlignmentOptions{.trim = 0}.check(), InputError);
