@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/errors.h"
 #include "preprocessing/workspace.h"
@@ -126,11 +127,18 @@ PlacedControls place_controls(const FacsCatalogue& catalogue, const std::string&
     const ExpressionZone zone(catalogue, expression, landmarks);
     const Point origin = landmarks.position_mm("nose_tip");
     const double reach_mm = 2.2 * unit;
+    std::vector<std::string> off_the_face;
     hexagonal_lattice(origin, sampling.coverage_spacing * unit, reach_mm, [&](int row, int col, Point p) {
-        if (zone.distance(p) > 0 || !drop_on_surface(surface, p)) return;
-        if (near(placed.controls, p, apart_mm)) return;
-        placed.controls.push_back({fmt::format("coverage_{}_{}", row, col), ControlKind::coverage, p});
+        if (zone.distance(p) > 0) return;
+        auto name = fmt::format("coverage_{}_{}", row, col);
+        if (!drop_on_surface(surface, p))
+            off_the_face.push_back(std::move(name));
+        else if (!near(placed.controls, p, apart_mm))
+            placed.controls.push_back({std::move(name), ControlKind::coverage, p});
     });
+    if (!off_the_face.empty())
+        placed.left_out.push_back(fmt::format("{}: off the face", fmt::join(off_the_face, ", ")));
+    // The anchors' lattice reaches beyond every face: what meets none is no loss worth a word.
     hexagonal_lattice(origin, sampling.anchor_spacing * unit, reach_mm, [&](int row, int col, Point p) {
         if (zone.distance(p) < sampling.anchor_margin || !drop_on_surface(surface, p)) return;
         placed.anchors.push_back({fmt::format("anchor_{}_{}", row, col), ControlKind::anchor, p});

@@ -6,6 +6,7 @@
 #include <map>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 
 #include "geometry/errors.h"
@@ -84,6 +85,80 @@ Landmarks mirrored(const Landmarks& marks) {
                          {-mark.position_mm.x(), mark.position_mm.y(), mark.position_mm.z()},
                          ""});
     return Landmarks(std::move(other));
+}
+
+/// The cells beside (row, col), at most four.
+template <typename Visit>
+void visit_neighbours(const geometry::QuadGrid& grid, std::size_t cell, const Visit& visit) {
+    const auto cols = static_cast<std::size_t>(grid.cols), col = cell % cols;
+    if (col > 0) visit(cell - 1);
+    if (col + 1 < cols) visit(cell + 1);
+    if (cell >= cols) visit(cell - cols);
+    if (cell + cols < grid.size()) visit(cell + cols);
+}
+
+/// `from`, and every cell of `among` that can be reached from it through cells of `among`.
+std::vector<char> reached(const geometry::QuadGrid& grid, const std::vector<char>& from,
+                          const std::vector<char>& among) {
+    std::vector<char> seen = from;
+    std::vector<std::size_t> waiting;
+    for (std::size_t v = 0; v < seen.size(); ++v)
+        if (seen[v]) waiting.push_back(v);
+    while (!waiting.empty()) {
+        const auto cell = waiting.back();
+        waiting.pop_back();
+        visit_neighbours(grid, cell, [&](std::size_t next) {
+            if (seen[next] || !among[next]) return;
+            seen[next] = 1;
+            waiting.push_back(next);
+        });
+    }
+    return seen;
+}
+
+/// Depth for `cells`, all of them holes: a membrane stretched between what was measured around them.
+void bridge(geometry::QuadGrid& grid, const std::vector<char>& cells) {
+    std::vector<Eigen::Index> unknown(grid.size(), -1);
+    Eigen::Index count = 0;
+    for (std::size_t v = 0; v < grid.size(); ++v)
+        if (cells[v]) unknown[v] = count++;
+    if (count == 0) return;
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd right_side = Eigen::VectorXd::Zero(count);
+    for (std::size_t v = 0; v < grid.size(); ++v) {
+        if (!cells[v]) continue;
+        double degree = 0;
+        visit_neighbours(grid, v, [&](std::size_t other) {
+            ++degree;
+            if (cells[other])
+                entries.emplace_back(unknown[v], unknown[other], -1.0);
+            else
+                right_side[unknown[v]] += grid.vertices_mm[other].z();
+        });
+        entries.emplace_back(unknown[v], unknown[v], degree);
+    }
+    Eigen::SparseMatrix<double> membrane(count, count);
+    membrane.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::VectorXd depths = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(membrane).solve(right_side);
+    for (std::size_t v = 0; v < grid.size(); ++v)
+        if (cells[v]) {
+            grid.vertices_mm[v].z() = depths[unknown[v]];
+            grid.origin[v] = VertexOrigin::bridged;
+        }
+}
+
+/// What is not measured and hangs together with no cell at the edge of the grid.
+std::vector<char> holes(const geometry::QuadGrid& grid) {
+    std::vector<char> open(grid.size()), edge(grid.size(), 0);
+    const auto cols = static_cast<std::size_t>(grid.cols);
+    for (std::size_t v = 0; v < grid.size(); ++v) {
+        open[v] = grid.inside(v) ? 0 : 1;
+        const bool at_edge = v < cols || v + cols >= grid.size() || v % cols == 0 || v % cols + 1 == cols;
+        edge[v] = open[v] && at_edge ? 1 : 0;
+    }
+    const auto around = reached(grid, edge, open);
+    for (std::size_t v = 0; v < grid.size(); ++v) open[v] = open[v] && !around[v] ? 1 : 0;
+    return open;
 }
 
 }  // namespace
@@ -214,12 +289,25 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
         }
     }
 
+    // A cell that just misses the share stands all the same if its mirror image makes up for it.
     const double needed = options.min_share * static_cast<double>(count);
+    const auto mirrored_cell = [cols = static_cast<std::size_t>(grid.cols)](std::size_t v) {
+        return v - v % cols + (cols - 1 - v % cols);
+    };
     grid.origin.assign(cells, VertexOrigin::outside);
+    for (std::size_t v = 0; v < cells; ++v) {
+        const bool together = measured[v] + measured[mirrored_cell(v)] >= 2 * needed && measured[v] >= 0.5 * needed;
+        if (measured[v] == 0 || (measured[v] < needed && !together)) continue;
+        grid.vertices_mm[v].z() = depth_sum[v] / measured[v];
+        grid.origin[v] = VertexOrigin::measured;
+    }
+    bridge(grid, holes(grid));
+    // One outline for both halves: what stands on the left has its place on the right.
+    const auto whole = grid.origin;
     for (std::size_t v = 0; v < cells; ++v)
-        if (measured[v] > 0 && measured[v] >= needed) {
-            grid.vertices_mm[v].z() = depth_sum[v] / measured[v];
-            grid.origin[v] = VertexOrigin::measured;
+        if (whole[mirrored_cell(v)] == VertexOrigin::outside) {
+            grid.origin[v] = VertexOrigin::outside;
+            grid.vertices_mm[v].z() = std::numeric_limits<double>::quiet_NaN();
         }
 
     // Nose tip of the surface itself at the origin: straight behind the consensus' own.

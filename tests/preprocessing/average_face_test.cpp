@@ -100,5 +100,56 @@ TEST(AverageFace, of_equal_faces_is_that_face_with_its_nose_tip_at_the_origin) {
     EXPECT_GT(compared, 5000U);
 }
 
+/// Faces in closed form that lack what `lost` says of a place on them.
+template <typename Lost>
+AverageFace average_of_faces_without(const Lost& lost) {
+    const test::AnalyticFace face;
+    database::LoadedScan loaded;
+    loaded.scan = face.scan(1.0);
+    for (auto& p : loaded.scan.points_mm)
+        if (lost(p)) p.setConstant(std::numeric_limits<double>::quiet_NaN());
+    loaded.landmarks = face.landmarks();
+    loaded.entry.id = {"bs000", "N", "N", 0};
+    const Face gridded = preprocess_scan(loaded, {});
+    const std::vector<Landmarks> sets = {gridded.landmarks, gridded.landmarks};
+    return build_average_face(
+        2, [&](std::size_t) { return gridded; }, consensus_landmarks(sets));
+}
+
+bool at_left_brow(const Point& p) { return std::hypot((p.x() - 30) / 14, (p.y() - 45) / 6) < 1; }
+
+TEST(AverageFace, a_brow_that_no_scan_shows_is_bridged_and_says_so) {
+    const auto average = average_of_faces_without(at_left_brow);
+    std::size_t bridged = 0;
+    for (std::size_t v = 0; v < average.grid.size(); ++v) {
+        const Point& p = average.grid.vertices_mm[v];
+        if (std::hypot((p.x() - 30) / 12, (p.y() - 45) / 4) < 1) {
+            ASSERT_EQ(average.grid.origin[v], geometry::VertexOrigin::bridged) << p.transpose();
+            ++bridged;
+            // From the eye hollow (-5 mm) up to the brow (+3 mm) the face bends both ways about a straight bridge: 1/9.
+            EXPECT_NEAR(p.z(), test::AnalyticFace::depth(p.x(), p.y()) - test::AnalyticFace::depth(0, 0), 0.9);
+        } else if (std::hypot((p.x() + 30) / 12, (p.y() - 45) / 4) < 1) {
+            ASSERT_EQ(average.grid.origin[v], geometry::VertexOrigin::measured) << p.transpose();
+        }
+    }
+    EXPECT_GT(bridged, 50U);
+}
+
+TEST(AverageFace, has_one_outline_for_both_sides) {
+    const auto average = average_of_faces_without([](const Point& p) { return p.x() > 45 && p.y() < 0; });
+    const auto cols = static_cast<std::size_t>(average.grid.cols);
+    std::size_t outside = 0;
+    for (std::size_t v = 0; v < average.grid.size(); ++v) {
+        const auto mirrored = v - v % cols + (cols - 1 - v % cols);
+        ASSERT_EQ(average.grid.inside(v), average.grid.inside(mirrored)) << average.grid.vertices_mm[v].transpose();
+        const Point& p = average.grid.vertices_mm[v];
+        if (p.x() < -47 && p.x() > -52 && p.y() < -10 && p.y() > -20) {
+            EXPECT_FALSE(average.grid.inside(v)) << p.transpose();  // measured, but its partner is not
+            ++outside;
+        }
+    }
+    EXPECT_GT(outside, 10U);
+}
+
 }  // namespace
 }  // namespace mimik::preprocessing
