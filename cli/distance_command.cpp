@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "database/hidden_subjects.h"
 #include "evaluation/surface_distance.h"
 #include "geometry/errors.h"
 #include "geometry/mesh_io.h"
@@ -48,6 +49,7 @@ void write_distances(const std::filesystem::path& file, geometry::Mesh mesh, con
 }
 
 void run(const Request& request) {
+    for (const auto& file : {request.test, request.reference}) database::refuse_hidden_file(file);
     auto test = read_test(request.test);
     const auto reference = geometry::read_mesh(request.reference);
     if (reference.faces.size() == 0)

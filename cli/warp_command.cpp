@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "database/hidden_subjects.h"
 #include "geometry/warp.h"
 
 namespace mimik::cli {
@@ -23,6 +24,7 @@ const std::map<std::string, geometry::SplineKernel> kernel_names = {{"r", geomet
                                                                     {"r2logr", geometry::SplineKernel::r2_log_r2}};
 
 int run_warp(const WarpArguments& arguments) {
+    for (const auto& file : {arguments.input, arguments.from, arguments.to}) database::refuse_hidden_file(file);
     const auto report =
         geometry::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, arguments.options);
     if (arguments.common.json) {

@@ -1,6 +1,7 @@
 #include "database/hidden_subjects.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -147,36 +148,62 @@ private:
     std::string first_unmatched_;
 };
 
+void add_manifest_subjects(const fs::path& manifest_file, const fs::path& file, std::vector<std::string>& subjects) {
+    std::error_code error;
+    if (!fs::is_regular_file(manifest_file, error)) return;
+    for (const auto& entry : parse_manifest(geometry::read_text(manifest_file, max_list_bytes), manifest_file).scans)
+        if (entry.scan_file == file ||
+            (entry.scan_file.filename() == file.filename() && fs::equivalent(entry.scan_file, file, error)))
+            subjects.push_back(entry.id.subject);
+}
+
 /// Whose face the file may hold, by its name and by what lies between the list's folder and the file.
 std::vector<std::string> possible_subjects(const fs::path& file, const fs::path& list_folder) {
     std::vector<std::string> subjects;
-    if (const auto id = parse_scan_name(file.stem().string())) subjects.push_back(id->subject);
-    for (auto folder = file.parent_path(); folder != list_folder; folder = folder.parent_path())
+    const std::string stem = file.stem().string();
+    if (const auto id = parse_scan_name(stem)) subjects.push_back(id->subject);
+    // bs000.png is a sheet of bs000; a bare number is more often an action unit's.
+    if (!std::all_of(stem.begin(), stem.end(), is_digit)) subjects.push_back(stem);
+    for (auto folder = file.parent_path();; folder = folder.parent_path()) {
+        add_manifest_subjects(folder / "manifest.csv", file, subjects);
+        if (folder == list_folder) return subjects;
         subjects.push_back(folder.filename().string());
-    const auto manifest_file = list_folder / "manifest.csv";
+    }
+}
+
+struct FoundList {
+    fs::path file;
+    bool above = false;  ///< of the folder where the search began
+};
+
+std::vector<FoundList> lists_up_from(fs::path folder, int levels_above) {
+    std::vector<FoundList> lists;
+    for (int level = 0; level <= levels_above; ++level, folder = folder.parent_path()) {
+        for (auto& file : hidden_subjects_files(folder)) lists.push_back({std::move(file), level > 0});
+        if (folder == folder.parent_path()) break;
+    }
+    return lists;
+}
+
+/// Where the path lies, and where its links lead if that is another place. Empty if there is no such path.
+std::vector<fs::path> places_of(const fs::path& path) {
     std::error_code error;
-    if (fs::is_regular_file(manifest_file, error))
-        for (const auto& entry :
-             parse_manifest(geometry::read_text(manifest_file, max_list_bytes), manifest_file).scans)
-            if (entry.scan_file == file ||
-                (entry.scan_file.filename() == file.filename() && fs::equivalent(entry.scan_file, file, error)))
-                subjects.push_back(entry.id.subject);
-    return subjects;
+    std::vector<fs::path> places = {fs::absolute(path, error).lexically_normal()};
+    if (error) return {};
+    if (!places[0].has_filename()) places[0] = places[0].parent_path();  // "folder/" is "folder"
+    if (auto target = fs::canonical(path, error); !error && target != places[0]) places.push_back(std::move(target));
+    return places;
 }
 
 void refuse_hidden_at(const fs::path& file) {
-    auto folder = file.parent_path();
-    for (int level = 0; level < 3; ++level, folder = folder.parent_path()) {
-        for (const auto& list : hidden_subjects_files(folder)) {
-            const auto subjects = possible_subjects(file, folder);
-            const auto hidden =
-                ListReader(geometry::read_text(list, max_list_bytes), list.string(), subjects).read().subjects;
-            for (const auto& subject : subjects)
-                if (is_hidden(hidden, subject))
-                    throw InputError(fmt::format("{}: subject '{}' stands in {} and must not be shown; choose another",
-                                                 file.string(), subject, list.string()));
-        }
-        if (folder == folder.parent_path()) return;
+    for (const auto& list : lists_up_from(file.parent_path(), 4)) {
+        const auto subjects = possible_subjects(file, list.file.parent_path());
+        const auto hidden =
+            ListReader(geometry::read_text(list.file, max_list_bytes), list.file.string(), subjects).read().subjects;
+        for (const auto& subject : subjects)
+            if (is_hidden(hidden, subject))
+                throw InputError(fmt::format("{}: subject '{}' stands in {} and must not be shown; choose another",
+                                             file.string(), subject, list.file.string()));
     }
 }
 
@@ -209,12 +236,33 @@ bool is_hidden(std::span<const std::string> hidden_subjects, std::string_view su
                        [&](const auto& hidden) { return geometry::equal_ignoring_case(hidden, subject); });
 }
 
+HiddenSubjects hidden_subjects_of(const fs::path& folder, std::span<const std::string> subjects, KnownSubjects known) {
+    HiddenSubjects hidden;
+    std::set<std::string> found;
+    std::set<fs::path> seen;
+    for (const auto& place : places_of(folder))
+        for (const auto& list : lists_up_from(place, 2)) {
+            if (!seen.insert(list.file).second) continue;
+            const auto text = geometry::read_text(list.file, max_list_bytes);
+            auto entries = list.above || known == KnownSubjects::some
+                               ? ListReader(text, list.file.string(), subjects).read()
+                               : parse_hidden_subjects(text, list.file.string(), subjects);
+            found.insert(entries.subjects.begin(), entries.subjects.end());
+            if (!list.above && known == KnownSubjects::all)
+                std::move(entries.remarks.begin(), entries.remarks.end(), std::back_inserter(hidden.remarks));
+        }
+    hidden.subjects.assign(found.begin(), found.end());
+    return hidden;
+}
+
+std::string hidden_subjects_text(std::span<const std::string> hidden_subjects) {
+    std::string text;
+    for (const auto& subject : hidden_subjects) text += subject + '\n';
+    return text;
+}
+
 void refuse_hidden_file(const fs::path& file) {
-    std::error_code error;
-    const auto place = fs::absolute(file, error).lexically_normal();
-    if (error) return;  // the file itself cannot be read either
-    refuse_hidden_at(place);
-    if (const auto target = fs::canonical(file, error); !error && target != place) refuse_hidden_at(target);
+    for (const auto& place : places_of(file)) refuse_hidden_at(place);
 }
 
 }  // namespace mimik::database

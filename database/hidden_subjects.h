@@ -31,9 +31,24 @@ struct HiddenSubjects {
 /// Whether the list holds the subject; case ignored.
 [[nodiscard]] bool is_hidden(std::span<const std::string> hidden_subjects, std::string_view subject);
 
-/// For commands that take bare files: looks for a list in the file's folder and the two above it, where the file lies
-/// and where links lead. Whose face it is, is told by the file's name (bs000_N_N_0), by the folders between list and
-/// file, or by manifest.csv beside the list. @throws InputError naming the list if that subject is hidden.
+/// Whether all subjects of a folder are known, so that an entry that matches none of them is a mistake.
+enum class KnownSubjects { all, some };
+
+/// Who is hidden in a database or a workspace: by the lists in its folder and in the two above it, where it lies and
+/// where links lead. A list above the folder may be about more than what lies there: it hides whom it names, and its
+/// other entries are passed over. So are those of every list if only some subjects are known.
+/// @throws InputError as parse_hidden_subjects(), of a list above the folder only where it cannot be read as text.
+[[nodiscard]] HiddenSubjects hidden_subjects_of(const std::filesystem::path& folder,
+                                                std::span<const std::string> subjects,
+                                                KnownSubjects known = KnownSubjects::all);
+
+/// The text of a list of these subjects; empty if there are none.
+[[nodiscard]] std::string hidden_subjects_text(std::span<const std::string> hidden_subjects);
+
+/// For commands that take bare files: looks for a list in the file's folder and the four above it (a subject's folder,
+/// truth/ or faces/, the database, and the two above that), where the file lies and where links lead. Whose face it is,
+/// is told by the file's name (bs000_N_N_0, bs000), by the folders between list and file, or by a manifest.csv in one
+/// of them. @throws InputError naming the list if that subject is hidden.
 void refuse_hidden_file(const std::filesystem::path& file);
 
 }  // namespace mimik::database

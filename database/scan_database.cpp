@@ -107,7 +107,7 @@ fs::path first_file(const fs::path& root, std::initializer_list<const char*> nam
     return {};
 }
 
-void read_lists(ScanDatabase& database) {
+void read_lists(ScanDatabase& database, const fs::path& named_root) {
     if (const auto file = first_file(database.root, {"facscodes.lst", "facscodes/facscodes.lst"}); !file.empty()) {
         auto codes = parse_facs_codes(geometry::read_text(file, max_list_bytes), file.string());
         std::move(codes.remarks.begin(), codes.remarks.end(), std::back_inserter(database.remarks));
@@ -132,15 +132,10 @@ void read_lists(ScanDatabase& database) {
             if (const auto it = sexes.find(lower_case(entry.id.subject)); it != sexes.end() && entry.sex.empty())
                 entry.sex = it->second;
     }
-    const auto subjects = database.subjects();
-    auto& hidden = database.hidden_subjects;
-    for (const auto& file : hidden_subjects_files(database.root)) {
-        auto list = parse_hidden_subjects(geometry::read_text(file, max_list_bytes), file.string(), subjects);
-        std::move(list.subjects.begin(), list.subjects.end(), std::back_inserter(hidden));
-        std::move(list.remarks.begin(), list.remarks.end(), std::back_inserter(database.remarks));
-    }
-    std::sort(hidden.begin(), hidden.end());
-    hidden.erase(std::unique(hidden.begin(), hidden.end()), hidden.end());
+    // The folder as it was named: a list may lie beside a link to the database.
+    auto hidden = hidden_subjects_of(named_root, database.subjects());
+    database.hidden_subjects = std::move(hidden.subjects);
+    std::move(hidden.remarks.begin(), hidden.remarks.end(), std::back_inserter(database.remarks));
 }
 
 /// Landmarks under our names; nothing if there are none or they cannot be read (load() says why).
@@ -296,7 +291,7 @@ ScanDatabase open_database(const std::filesystem::path& root) {
             throw InputError(fmt::format("{}: lists no scan; add one line per scan", file.string()));
         std::stable_sort(database.scans.begin(), database.scans.end(),
                          [](const auto& a, const auto& b) { return a.id < b.id; });
-        read_lists(database);
+        read_lists(database, root);
         return database;
     }
     const auto entries = listing(database.root, database.remarks);
@@ -314,7 +309,7 @@ ScanDatabase open_database(const std::filesystem::path& root) {
     if (twin != database.scans.end())
         throw InputError(fmt::format("{} and {}: two scans of one name; rename one or move it out of the database",
                                      twin->scan_file.string(), std::next(twin)->scan_file.string()));
-    read_lists(database);
+    read_lists(database, root);
     decide_code_sides(database);
     return database;
 }

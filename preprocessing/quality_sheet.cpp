@@ -136,18 +136,27 @@ private:
     std::vector<ScanId> scans_;
 };
 
-}  // namespace
-
-QualitySheetReport draw_quality_sheets(const Workspace& workspace, const DrawFigure& draw,
-                                       const std::function<void(const std::string&)>& progress) {
-    // Also of subjects that this workspace has no scan of any more; and the meshes of runs that were killed.
+std::vector<fs::path> files_of_sheets(const Workspace& workspace) {
     std::error_code none;
     std::vector<fs::path> found;
     for (const auto& entry : fs::directory_iterator(workspace.root() / "sheets", none)) found.push_back(entry.path());
-    for (const auto& path : found) {
+    return found;
+}
+
+}  // namespace
+
+void remove_hidden_sheets(const Workspace& workspace) {
+    // Also of subjects that this workspace has no scan of any more.
+    for (const auto& path : files_of_sheets(workspace))
         if (const auto subject = path.stem().string(); workspace.hidden(subject)) Sheet(workspace, subject).remove();
+}
+
+QualitySheetReport draw_quality_sheets(const Workspace& workspace, const DrawFigure& draw,
+                                       const std::function<void(const std::string&)>& progress) {
+    remove_hidden_sheets(workspace);
+    std::error_code none;
+    for (const auto& path : files_of_sheets(workspace))  // of runs that were killed
         if (path.extension() == ".parts") fs::remove_all(path, none);
-    }
 
     std::vector<std::string> subjects;
     for (const auto& subject : workspace.subjects())

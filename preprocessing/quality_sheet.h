@@ -29,4 +29,7 @@ struct QualitySheetReport {
     const Workspace& workspace, const DrawFigure& draw,
     const std::function<void(const std::string& subject)>& progress = {});
 
+/// Deletes sheets of subjects who must not be shown any more; every preprocessing does.
+void remove_hidden_sheets(const Workspace& workspace);
+
 }  // namespace mimik::preprocessing

@@ -18,6 +18,7 @@
 #include "geometry/surface_index.h"
 #include "preprocessing/json_values.h"
 #include "preprocessing/normalisation.h"
+#include "preprocessing/quality_sheet.h"
 
 namespace mimik::preprocessing {
 
@@ -247,7 +248,18 @@ private:
         std::call_once(writing_, [&] {
             std::error_code ignored;
             fs::remove(root_ / "workspace.json", ignored);
+            keep_hidden_list();  // before the first face that it is about
         });
+    }
+    /// For commands that take bare files.
+    void keep_hidden_list() const {
+        const auto file = root_ / "unallowed_subjects.txt";
+        std::error_code error;
+        if (!database_.hidden_subjects.empty())
+            geometry::write_atomically(file, database::hidden_subjects_text(database_.hidden_subjects));
+        else if (fs::exists(file, error) && !fs::remove(file, error))
+            throw InputError(fmt::format("{}: hides subjects whom the database shows and cannot be removed ({})",
+                                         file.string(), error.message()));
     }
     [[nodiscard]] std::string neutral_fingerprint(const ScanEntry& entry) const {
         return describe(options_) + " neutral " + stamp(entry);
@@ -417,7 +429,9 @@ private:
                                          {"failures", failures},
                                          {"subjects_left_out", report.left_out},
                                          {"hidden_subjects", database_.hidden_subjects}};
+        keep_hidden_list();
         geometry::write_atomically(root_ / "workspace.json", json_text(document));
+        remove_hidden_sheets(Workspace(root_));
         return report;
     }
 
@@ -510,6 +524,10 @@ Workspace::Workspace(fs::path root) : root_(std::move(root)) {
         return 0;
     });
     std::sort(scans_.begin(), scans_.end());
+    // Who asked to be hidden since then is hidden at once, not from the next preprocessing on.
+    for (const auto& folder : {database_root_, root_})
+        for (auto& subject : database::hidden_subjects_of(folder, subjects(), database::KnownSubjects::some).subjects)
+            if (!hidden(subject)) hidden_subjects_.push_back(std::move(subject));
     average_ = read_average_face(average_stem(root_));
 }
 

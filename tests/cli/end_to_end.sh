@@ -140,7 +140,13 @@ code=0
 expect_code 2 "bs001" "$mimik" animate broken_work --source mean --target bs001 --au 4 -o hidden.ply
 expect_code 2 "bs001" "$mimik" panels broken_work --target bs001 --au 4 -o hidden
 expect_code 2 "bs001" "$mimik" panels broken_work --source bs001 --target bs000 --au 4 -o hidden
-[ ! -e hidden.ply ] && [ ! -e hidden ]
+face=broken_work/faces/bs001/bs001_N_N_0.ply
+expect_code 2 "'bs001' stands in" "$mimik" figure $face -o hidden.png
+expect_code 2 "'bs001' stands in" "$mimik" distance $face broken_work/average/average_face.ply -o hidden.vtp
+echo bs002 >>broken/Unallowed_Subjects.txt  # is heeded without another preprocessing
+expect_code 2 "bs002" "$mimik" animate broken_work --source mean --target bs002 --au 4 -o hidden.ply
+[ ! -e hidden.ply ] && [ ! -e hidden ] && [ ! -e hidden.png ] && [ ! -e hidden.vtp ]
+echo BS001 >broken/Unallowed_Subjects.txt
 "$mimik" preprocess broken -o broken_work --sheets --quiet >/dev/null 2>&1 || [ $? -eq 1 ]
 [ ! -e broken_work/sheets/bs001.png ] && { [ "$can_draw" = no ] || [ -e broken_work/sheets/bs000.png ]; }
 claim "a subject who must not be shown is not"

@@ -79,6 +79,20 @@ expect_code 2 $'b\nf\ng' "$mimik" warp --from box.csv --to fewer.csv points.csv 
 for name in b f g; do grep -qwF "$name" err.txt || fail "$name is not named"; done
 expect_code 2 "points.csv" "$mimik" distance low.obj points.csv
 expect_code 2 "missing.ply" "$mimik" distance missing.ply high.obj
+
+mkdir -p db/bs003
+cp low.obj db/bs003/bs003_N_N_0.obj
+cp box.csv db/bs003/bs003_N_N_0.csv
+echo bs003 >db/unallowed_subjects.txt
+scan=db/bs003/bs003_N_N_0
+expect_code 2 "'bs003' stands in" "$mimik" warp --from box.csv --to moved.csv $scan.obj -o nothing.csv
+expect_code 2 "'bs003' stands in" "$mimik" warp --from $scan.csv --to moved.csv points.csv -o nothing.csv
+expect_code 2 "'bs003' stands in" "$mimik" warp --from box.csv --to $scan.csv points.csv -o nothing.csv
+expect_code 2 "'bs003' stands in" "$mimik" distance $scan.obj high.obj -o nothing.csv
+expect_code 2 "'bs003' stands in" "$mimik" distance low.obj $scan.obj -o nothing.csv
+[ ! -e nothing.csv ] || fail "a file of a hidden subject"
+claim "scans and points of a hidden subject are neither warped nor measured"
+
 printf 'name,x,y,z\na,0,0,0\nb,1,0,0\nc,2,1,0\nd,0,1,0\n' >flat.csv
 expect_code 3 "plane" "$mimik" warp --from flat.csv --to flat.csv points.csv -o nothing.csv
 [ ! -e nothing.csv ] || fail "a file that should not be"

@@ -84,14 +84,53 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(RefuseHiddenFile, a_file_is_refused_by_its_own_name_or_its_folders_up_to_two_below_the_list) {
+TEST(HiddenSubjectsOf, lists_in_the_folder_and_the_two_above_it_count_and_those_above_refuse_nothing) {
+    const TemporaryFolder folder;
+    const auto root = folder.path() / "a/b";
+    std::filesystem::create_directories(root / "c");
+    geometry::write_atomically(folder.path() / "unallowed_subjects.txt", "bs002\nof another database\n");
+    geometry::write_atomically(folder.path() / "a/unallowed_subjects.txt", "nobody\n");
+    geometry::write_atomically(root / "unallowed_subjects.txt", "1 nobody\n");
+    const std::vector<std::string> subjects = {"bs000", "bs001", "bs002"};
+    for (const auto& spelling : {root, root / "", root / "c/.."}) {
+        const auto hidden = hidden_subjects_of(spelling, subjects);
+        EXPECT_THAT(hidden.subjects, ElementsAre("bs001", "bs002"));
+        EXPECT_THAT(hidden.remarks, ElementsAre(HasSubstr("'nobody' is no subject")));
+    }
+    EXPECT_THAT(hidden_subjects_of(root / "c", subjects).subjects, ElementsAre("bs001"));  // bs002's is three above
+    const TemporaryFolder elsewhere;
+    std::filesystem::create_symlink(root, elsewhere.path() / "link");
+    geometry::write_atomically(elsewhere.path() / "unallowed_subjects.txt", "bs000\n");
+    EXPECT_THAT(hidden_subjects_of(elsewhere.path() / "link", subjects).subjects,
+                ElementsAre("bs000", "bs001", "bs002"));
+}
+
+TEST(HiddenSubjectsOf, where_only_some_subjects_are_known_a_list_that_names_none_of_them_is_no_mistake) {
+    const TemporaryFolder folder;
+    geometry::write_atomically(folder.path() / "unallowed_subjects.txt", "anna\n");
+    const std::vector<std::string> subjects = {"ben"};
+    EXPECT_THAT(hidden_subjects_of(folder.path(), subjects, KnownSubjects::some).subjects, IsEmpty());
+    EXPECT_THAT(message_of<InputError>([&] { (void)hidden_subjects_of(folder.path(), subjects); }),
+                HasSubstr("nobody would be hidden"));
+}
+
+TEST(HiddenSubjects, the_text_of_a_list_reads_back_as_the_same_subjects) {
+    const std::vector<std::string> subjects = {"anna-maria", "bs001", "j.doe"};
+    EXPECT_EQ(parsed(hidden_subjects_text(subjects), subjects).subjects, subjects);
+    EXPECT_EQ(hidden_subjects_text({}), "");
+}
+
+TEST_F(RefuseHiddenFile, a_file_is_refused_by_its_own_name_or_its_folders_up_to_four_below_the_list) {
     list("BS000\n7\nnobody\n");
     EXPECT_THAT(refused("bs000_N_N_0.ply"), HasSubstr("subject 'bs000' stands in"));
     EXPECT_THAT(refused("bs000/x.bnt"), HasSubstr("subject 'bs000'"));
     EXPECT_THAT(refused("truth/bs007/x.ply"), HasSubstr("subject 'bs007'"));
     EXPECT_EQ(refused("bs001/bs001_N_N_0.bnt"), shown);
     EXPECT_EQ(refused("bs001_N_N_0.bnt"), shown);
-    EXPECT_EQ(refused("a/b/bs000/x.bnt"), shown);  // three below
+    EXPECT_THAT(refused("sheets/bs000.png"), HasSubstr("subject 'bs000'"));
+    EXPECT_EQ(refused("a/7.ply"), shown);  // an action unit, more likely
+    EXPECT_THAT(refused("a/b/truth/bs000/x.ply"), HasSubstr("subject 'bs000'"));
+    EXPECT_EQ(refused("a/b/c/d/bs000/x.bnt"), shown);  // five below
 }
 
 TEST_F(RefuseHiddenFile, a_link_to_a_hidden_file_is_refused) {
@@ -103,12 +142,14 @@ TEST_F(RefuseHiddenFile, a_link_to_a_hidden_file_is_refused) {
                 HasSubstr("subject 'bs000'"));
 }
 
-TEST_F(RefuseHiddenFile, a_manifest_beside_the_list_says_whose_file_it_is) {
+TEST_F(RefuseHiddenFile, a_manifest_beside_or_below_the_list_says_whose_file_it_is) {
     list("müller\n");
     geometry::write_atomically(folder_.path() / "manifest.csv",
                                "subject,expression,scan\nmüller,N,scans/1.ply\nanna,N,scans/2.ply\n");
     EXPECT_THAT(refused("scans/1.ply"), HasSubstr("subject 'müller'"));
     EXPECT_EQ(refused("scans/2.ply"), shown);
+    geometry::write_atomically(folder_.path() / "db/manifest.csv", "subject,expression,scan\nmüller,N,1.ply\n");
+    EXPECT_THAT(refused("db/1.ply"), HasSubstr("subject 'müller'"));  // a manifest below the list
 }
 
 }  // namespace

@@ -81,6 +81,18 @@ TEST(ScanDatabase, unallowed_subjects_are_hidden_by_number_or_name) {
                 HasSubstr("Unallowed_Subjects.txt: line 1: 'nobody' is no subject"));
 }
 
+TEST(ScanDatabase, a_list_above_the_database_hides_too_also_where_one_subjects_folder_is_opened) {
+    const TemporaryFolder folder;
+    for (const char* name : {"bs000_N_N_0", "bs001_N_N_0"}) write_scan(folder.path() / "db", name, make_face());
+    geometry::write_atomically(folder.path() / "unallowed_subjects.txt", "bs001\nsomebody else\n");
+    const auto database = open_database(folder.path() / "db");
+    EXPECT_TRUE(database.hidden("bs001"));
+    EXPECT_FALSE(database.hidden("bs000"));
+    EXPECT_THAT(database.remarks, IsEmpty());
+    EXPECT_TRUE(open_database(folder.path() / "db/bs001").hidden("bs001"));
+    EXPECT_FALSE(open_database(folder.path() / "db/bs000").hidden("bs000"));
+}
+
 TEST(ScanDatabase, facs_codes_give_intensities_with_the_stronger_side) {
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_LFAU_12_0", make_face());

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "database/hidden_subjects.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/parallel.h"
@@ -287,6 +288,48 @@ TEST_F(WorkspaceTest, hidden_subjects_are_known_to_the_workspace) {
     EXPECT_TRUE(workspace.hidden("Bs001"));
     EXPECT_THROW(workspace.refuse_hidden("bs001"), InputError);
     EXPECT_FALSE(workspace.hidden("bs000"));
+}
+
+TEST_F(WorkspaceTest, bare_files_of_hidden_subjects_are_refused_in_a_workspace_until_they_may_be_shown_again) {
+    const auto list = database_ / "unallowed_subjects.txt";
+    geometry::write_atomically(list, "BS001\n");
+    (void)preprocess();
+    EXPECT_THROW(database::refuse_hidden_file(face_file("bs001_N_N_0.ply")), InputError);
+    EXPECT_NO_THROW(database::refuse_hidden_file(face_file("bs000_N_N_0.ply")));
+    geometry::write_atomically(list, "bs000\n");
+    (void)preprocess();
+    EXPECT_THROW(database::refuse_hidden_file(face_file("bs000_N_N_0.ply")), InputError);
+    EXPECT_NO_THROW(database::refuse_hidden_file(face_file("bs001_N_N_0.ply")));
+    fs::remove(list);
+    (void)preprocess();
+    EXPECT_NO_THROW(database::refuse_hidden_file(face_file("bs000_N_N_0.ply")));
+    EXPECT_FALSE(Workspace(workspace_).hidden("bs000"));
+}
+
+TEST_F(WorkspaceTest, who_is_put_on_the_list_after_preprocessing_is_hidden_at_once) {
+    geometry::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
+    (void)preprocess();
+    geometry::write_atomically(folder_.path() / "unallowed_subjects.txt", "BS000\nsomebody else\n");  // above both
+    EXPECT_TRUE(Workspace(workspace_).hidden("bs000"));
+    fs::remove(folder_.path() / "unallowed_subjects.txt");
+    EXPECT_FALSE(Workspace(workspace_).hidden("bs000"));
+    geometry::write_atomically(database_ / "unallowed_subjects.txt", "2\n");
+    const Workspace workspace(workspace_);
+    EXPECT_TRUE(workspace.hidden("bs002"));
+    EXPECT_TRUE(workspace.hidden("bs001"));  // as it was preprocessed
+    fs::rename(database_, folder_.path() / "moved");
+    EXPECT_TRUE(Workspace(workspace_).hidden("bs001"));
+}
+
+TEST_F(WorkspaceTest, the_sheet_of_a_subject_hidden_since_is_deleted_by_the_next_preprocessing) {
+    (void)preprocess();
+    for (const char* name : {"bs001.png", "bs001.done", "bs000.png"})
+        geometry::write_atomically(workspace_ / "sheets" / name, "a sheet");
+    geometry::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
+    (void)preprocess();
+    EXPECT_FALSE(fs::exists(workspace_ / "sheets/bs001.png"));
+    EXPECT_FALSE(fs::exists(workspace_ / "sheets/bs001.done"));
+    EXPECT_TRUE(fs::exists(workspace_ / "sheets/bs000.png"));
 }
 
 TEST_F(WorkspaceTest, a_selection_that_names_what_is_not_there_is_refused_by_name) {
