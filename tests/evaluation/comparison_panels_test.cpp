@@ -14,7 +14,7 @@
 #include "geometry/mesh_io.h"
 #include "geometry/surface_index.h"
 #include "tests/database/temporary_folder.h"
-#include "tests/support/analytic_workspace_files.h"
+#include "tests/support/workspace_test.h"
 
 namespace mimik::evaluation {
 namespace {
@@ -55,26 +55,13 @@ double mean_of_finite(const std::vector<double>& values) {
     return sum / count;
 }
 
-class ComparisonPanels : public testing::Test {
+class ComparisonPanels : public test::WorkspaceTest<ComparisonPanels> {
 protected:
-    static void SetUpTestSuite() {
-        folder_ = new database::TemporaryFolder;
-        workspace_ = new Workspace(test::analytic_workspace(folder_->path()));
-    }
-    static void TearDownTestSuite() {
-        delete workspace_;
-        delete folder_;
-    }
     [[nodiscard]] static fs::path out(const std::string& name) { return folder_->path() / name; }
     [[nodiscard]] static ComparisonFigure panels(const ComparisonRequest& request, const std::string& name) {
         return write_comparison_panels(*workspace_, catalogue(), request, out(name));
     }
-    static database::TemporaryFolder* folder_;
-    static Workspace* workspace_;
 };
-
-database::TemporaryFolder* ComparisonPanels::folder_ = nullptr;
-Workspace* ComparisonPanels::workspace_ = nullptr;
 
 TEST_F(ComparisonPanels, two_people_have_five_panels_each_and_every_file_that_is_named_is_there) {
     const auto figure = panels(smile("bs000", "bs001"), "two");

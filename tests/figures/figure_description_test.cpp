@@ -9,27 +9,20 @@
 #include "geometry/file.h"
 #include "geometry/mesh_io.h"
 #include "tests/figures/shapes.h"
+#include "tests/support/thrown.h"
 
 namespace mimik::figures {
 namespace {
 
 using geometry::Point;
+using test::message_of;
 using testing::AllOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-std::string error_of(const auto& call) {
-    try {
-        call();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "no error";
-}
-
 FigureDescription decoded(const std::string& json) { return decode_figure_description(json, "fig.json", "folder"); }
 std::string error_in(const std::string& json) {
-    return error_of([&] { (void)decoded(json); });
+    return message_of([&] { (void)decoded(json); });
 }
 
 TEST(FigureDescription, every_key_reaches_its_field) {
@@ -176,7 +169,7 @@ TEST_F(LoadFigure, a_unit_scales_a_scan_as_it_scales_a_mesh_and_faults_name_the_
     EXPECT_EQ(load_figure({.panels = {in_cm}}).panels[0].mesh.vertices_mm[3], 10 * scan.points_mm[3]);
     scan.points_mm[3].z() = 1e300;
     database::write_bnt(folder_ / "far.bnt", database::to_bnt(scan));
-    EXPECT_THAT(error_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "far.bnt"}}}); }),
+    EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "far.bnt"}}}); }),
                 HasSubstr("far.bnt: z of row 1, column 1"));
 }
 
@@ -186,10 +179,10 @@ TEST_F(LoadFigure, the_scan_and_the_photograph_of_a_hidden_subject_are_refused) 
     geometry::write_mesh(folder_ / "face.ply", square(10));
     EXPECT_NO_THROW((void)load_figure({.panels = {{.mesh = folder_ / "bs000" / "face.ply"}}}));
     (void)written("Unallowed_subjects.txt", "BS000\n");
-    EXPECT_THAT(error_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "bs000" / "face.ply"}}}); }),
+    EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "bs000" / "face.ply"}}}); }),
                 HasSubstr("subject 'bs000' stands in"));
     EXPECT_THAT(
-        error_of([&] {
+        message_of([&] {
             (void)load_figure({.panels = {{.mesh = folder_ / "face.ply", .texture = folder_ / "bs000" / "face.png"}}});
         }),
         HasSubstr("subject 'bs000' stands in"));
@@ -200,15 +193,15 @@ TEST_F(LoadFigure, an_unknown_kind_of_control_is_refused_with_its_line) {
     geometry::write_mesh(folder_ / "face.ply", square(10));
     const auto controls = written("controls.csv", "name,x,y,z,kind\na,1,0,0,muscle\nb,0,1,0,bone\n");
     const std::string error =
-        error_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "face.ply", .controls = controls}}}); });
+        message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "face.ply", .controls = controls}}}); });
     EXPECT_THAT(error, AllOf(HasSubstr("controls.csv"), HasSubstr("3"), HasSubstr("'bone'")));
 }
 
 TEST_F(LoadFigure, a_missing_file_and_a_missing_texture_are_named) {
-    EXPECT_THAT(error_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "none.ply"}}}); }),
+    EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "none.ply"}}}); }),
                 HasSubstr("none.ply"));
     geometry::write_mesh(folder_ / "face.ply", square(10));
-    EXPECT_THAT(error_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "face.ply", .textured = true}}}); }),
+    EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "face.ply", .textured = true}}}); }),
                 AllOf(HasSubstr("face.ply"), HasSubstr("no texture")));
 }
 

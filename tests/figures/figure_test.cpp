@@ -9,21 +9,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/figures/shapes.h"
+#include "tests/support/thrown.h"
 
 namespace mimik::figures {
 namespace {
 
 using geometry::Image;
+using test::message_of;
 using testing::HasSubstr;
-
-std::string error_of(const auto& call) {
-    try {
-        call();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "no error";
-}
 
 std::size_t pixels_unlike(const Image& image, const Colour& colour) {
     std::size_t count = 0;
@@ -333,14 +326,14 @@ TEST(Render, supersampling_smooths_an_edge_and_keeps_the_size) {
 
 TEST(FigureCheck, errors_name_the_panel_and_the_value) {
     Figure figure;
-    EXPECT_THAT(error_of([&] { figure.check(); }), HasSubstr("no panel"));
+    EXPECT_THAT(message_of([&] { figure.check(); }), HasSubstr("no panel"));
     figure.panels = {{.mesh = square(10)}, {.mesh = square(10), .caption = "second"}};
-    EXPECT_EQ(error_of([&] { figure.check(); }), "no error");
+    EXPECT_EQ(message_of([&] { figure.check(); }), "nothing was thrown");
 
     const auto broken = [&](const auto& break_it) {
         Figure bad = figure;
         break_it(bad);
-        return error_of([&] { bad.check(); });
+        return message_of([&] { bad.check(); });
     };
     EXPECT_THAT(broken([](Figure& f) { f.panels[1].mesh.faces.corners[0] = 77; }),
                 AllOf(HasSubstr("panel 2 ('second')"), HasSubstr("corner 77"), HasSubstr("4 vertices")));
@@ -366,7 +359,7 @@ TEST(FigureCheck, a_missing_attribute_is_reported_with_those_there_are) {
     Figure figure = figure_of({.mesh = square(10)});
     figure.panels[0].mesh.attributes.push_back({"distance_mm", 1, {0, 0, 0, 0}});
     figure.panels[0].scalar = Scalar{.attribute = "distance"};
-    EXPECT_THAT(error_of([&] { (void)render(figure); }),
+    EXPECT_THAT(message_of([&] { (void)render(figure); }),
                 AllOf(HasSubstr("no attribute 'distance'"), HasSubstr("it has: distance_mm")));
 }
 
@@ -374,16 +367,16 @@ TEST(FigureCheck, a_page_too_large_to_keep_is_refused_before_it_is_drawn) {
     Figure figure = figure_of({.mesh = square(10)});
     figure.panel_width_px = figure.panel_height_px = 8000;
     figure.panels.push_back(figure.panels[0]);
-    EXPECT_THAT(error_of([&] { (void)render(figure); }), HasSubstr("pixels; give smaller or fewer panels"));
+    EXPECT_THAT(message_of([&] { (void)render(figure); }), HasSubstr("pixels; give smaller or fewer panels"));
 }
 
 TEST(View, an_unknown_name_is_refused_with_the_names_there_are) {
-    EXPECT_THAT(error_of([] { (void)parse_view("above"); }),
+    EXPECT_THAT(message_of([] { (void)parse_view("above"); }),
                 AllOf(HasSubstr("'above'"), HasSubstr("three-quarter-left")));
     EXPECT_EQ(parse_view("front").yaw_deg, 0);
     EXPECT_EQ(parse_view("right").yaw_deg, -90);
     EXPECT_GT(parse_view("three-quarter").yaw_deg, 0);
-    EXPECT_THAT(error_of([] { (void)parse_framing("tight"); }), HasSubstr("'tight'"));
+    EXPECT_THAT(message_of([] { (void)parse_framing("tight"); }), HasSubstr("'tight'"));
 }
 
 TEST(DrawingRoute, is_named) {

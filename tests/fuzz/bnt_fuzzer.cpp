@@ -27,11 +27,11 @@ void fuzz_one(std::span<const std::uint8_t> bytes) {
     const auto cells = std::size_t{bnt.rows} * bnt.cols;
     require(40 * cells < bytes.size(), "memory is bounded by the length of the file");
     require(bnt.x.size() == cells && bnt.v.size() == cells, "every column has a value per cell");
-    const auto scan = database::to_range_scan(bnt);
+    const auto scan = database::to_range_scan(bnt, "input");
     for (const auto& p : scan.points_mm)
         require(p.allFinite() || p.array().isNaN().all(), "a point is measured or NaN");
     require(scan.texture_file.find('/') == std::string::npos, "a texture name has no folder");
-    const auto again = database::to_range_scan(database::to_bnt(scan, bnt.background));
+    const auto again = database::to_range_scan(database::to_bnt(scan, bnt.background), "again");
     for (std::size_t i = 0; i < cells; ++i)
         require(again.valid(i) == scan.valid(i), "what was measured stays measured");
 }

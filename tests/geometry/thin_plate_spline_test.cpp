@@ -12,10 +12,12 @@
 
 #include "geometry/errors.h"
 #include "geometry/parallel.h"
+#include "tests/support/thrown.h"
 
 namespace mimik::geometry {
 namespace {
 
+using test::message_of;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -94,16 +96,6 @@ struct DirectSolve {
         return static_cast<double>((W.transpose() * K * W).trace());
     }
 };
-
-template <class Error, class Action>
-std::string message_of(Action action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "not thrown";
-}
 
 TEST(ThinPlateSpline, made_by_default_is_the_identity) {
     const ThinPlateSpline spline;

@@ -12,10 +12,12 @@
 #include "geometry/file.h"
 #include "geometry/mesh_io.h"
 #include "geometry/points_csv.h"
+#include "tests/support/thrown.h"
 
 namespace mimik::geometry {
 namespace {
 
+using test::message_of;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -41,16 +43,6 @@ protected:
 
     std::filesystem::path folder_;
 };
-
-template <class Error, class Action>
-std::string message_of(Action action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "not thrown";
-}
 
 TEST_F(Warp, of_a_csv_keeps_names_and_order_and_writes_every_digit) {
     write_atomically(at("in.csv"), "name,x,y,z\nsecond,2,2,2\nfirst,0.1,0.2,0.3\nsecond,4,4,4\n");

@@ -6,7 +6,7 @@
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "tests/database/temporary_folder.h"
-#include "tests/support/analytic_workspace_files.h"
+#include "tests/support/workspace_test.h"
 
 namespace mimik::modeling {
 namespace {
@@ -16,25 +16,12 @@ using preprocessing::Workspace;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class SourceExpression : public testing::Test {
+class SourceExpression : public test::WorkspaceTest<SourceExpression> {
 protected:
-    static void SetUpTestSuite() {
-        folder_ = new database::TemporaryFolder;
-        workspace_ = new Workspace(test::analytic_workspace(folder_->path()));
-    }
-    static void TearDownTestSuite() {
-        delete workspace_;
-        delete folder_;
-    }
     static ExpressionModel model(const std::string& code, const ExpressionSource& source) {
         return model_from_workspace(*workspace_, builtin_catalogue(), code, source);
     }
-    static database::TemporaryFolder* folder_;
-    static Workspace* workspace_;
 };
-
-database::TemporaryFolder* SourceExpression::folder_ = nullptr;
-Workspace* SourceExpression::workspace_ = nullptr;
 
 TEST_F(SourceExpression, one_side_comes_from_the_two_sided_scan_where_there_is_no_other) {
     const auto left = model("12L", {"bs001", {}});
