@@ -15,6 +15,13 @@ if(MIMIK_SANITIZE)
   add_link_options(-fsanitize=${MIMIK_SANITIZE})
 endif()
 
+# For what only calls the code under test: with sanitizers it takes half the time to compile without optimisation.
+add_library(mimik_caller INTERFACE)
+target_link_libraries(mimik_caller INTERFACE mimik_warnings)
+if(MIMIK_SANITIZE)
+  target_compile_options(mimik_caller INTERFACE -O0)
+endif()
+
 function(mimik_add_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   # A folder may link only to folders left of it: the chain has no way back.
@@ -44,6 +51,6 @@ function(mimik_add_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
-  target_link_libraries(${name} PRIVATE ${ARG_LINK} mimik_warnings)
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} mimik_caller)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
