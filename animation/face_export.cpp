@@ -76,7 +76,7 @@ std::vector<std::string> write_glb_face(const std::filesystem::path& file, const
     const auto neutral = mesh_of(grid, still, target, options, &kept);
     auto mesh = geometry::glb_mesh(neutral, &source);
     mesh.name = target.face().id.subject;
-    if (!texture_file.empty()) mesh.texture_png = geometry::read_bytes(texture_file);
+    if (!texture_file.empty()) mesh.texture_png = geometry::read_as_png(texture_file);
     const Eigen::Matrix3d turn = options.frame == OutputFrame::average
                                      ? Eigen::Matrix3d(target.average_from_scan().linear())
                                      : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
@@ -107,7 +107,7 @@ std::vector<std::string> write_animated_face(const std::filesystem::path& file, 
                                      file.string(), extension));
     geometry::MeshWriteOptions write_options;
     if (!texture_file.empty()) {
-        const auto bytes = geometry::read_bytes(texture_file);
+        const auto bytes = geometry::read_as_png(texture_file);
         // Not face.png: that may be somebody's picture of the face.
         const auto copy = file.parent_path() / (file.stem().string() + "_texture.png");
         geometry::write_atomically(copy, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));

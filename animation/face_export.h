@@ -33,7 +33,7 @@ struct NamedMagnitude {
 /// Writes .ply, .obj, .vtp (the animated face; texture of face.ply copied beside it as face_texture.png) or .glb (the
 /// neutral face with one morph target per expression set to its magnitude, metres, texture embedded). Morph targets add
 /// up, so several expressions combined in parallel are one target, the resultant, "AU12+AU4".
-/// @param texture_file  PNG of the scan; empty: none.
+/// @param texture_file  PNG or JPEG of the scan; empty: none.
 /// @param names  one per expression, in the order of `animated.fields_mm`; used by GLB only.
 /// @return remarks: what the file cannot hold as it was asked for.
 /// @throws InputError for another extension, equal names of morph targets, or if the file cannot be written.

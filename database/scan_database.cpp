@@ -61,6 +61,7 @@ std::size_t rank(const std::vector<std::string_view>& extensions, const fs::path
 void add_scans(const fs::path& folder, const std::vector<fs::path>& entries, ScanDatabase& database) {
     static const std::vector<std::string_view> scans = {".bnt", ".ply", ".pcd", ".obj", ".stl"};
     static const std::vector<std::string_view> landmarks = {".lm3", ".pp", ".fcsv", ".mrk.json", ".csv"};
+    static const std::vector<std::string_view> textures = {".png", ".jpg", ".jpeg"};
     const auto prefer = [](fs::path& kept, const fs::path& candidate, const std::vector<std::string_view>& extensions) {
         const auto place = rank(extensions, candidate);
         if (place < extensions.size() && (kept.empty() || place < rank(extensions, kept))) kept = candidate;
@@ -72,7 +73,7 @@ void add_scans(const fs::path& folder, const std::vector<fs::path>& entries, Sca
         prefer(entry.scan_file, path, scans);
         prefer(entry.landmarks_file, path, landmarks);
         if (extension == ".lm2") entry.landmarks2d_file = path;
-        if (extension == ".png") entry.texture_file = path;
+        prefer(entry.texture_file, path, textures);
     }
     for (auto& [stem, entry] : found) {
         const auto id = parse_scan_name(stem);
@@ -226,7 +227,7 @@ void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& near
     if (entry.texture_file.empty() || entry.landmarks2d_file.empty()) return;
     try {
         const auto marks = read_lm2(entry.landmarks2d_file);
-        const auto size = geometry::png_size(entry.texture_file);
+        const auto size = geometry::image_size(entry.texture_file);
         loaded.checks.texture = texture_orientation(loaded.scan, loaded.landmarks, nearest, marks, size);
     } catch (const InputError& e) {
         loaded.remarks.emplace_back(e.what());  // the surface can be used without its picture
@@ -248,7 +249,7 @@ void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& near
 
 std::optional<geometry::Image> load_texture(const ScanEntry& entry) {
     if (entry.texture_file.empty()) return std::nullopt;
-    return geometry::read_png(entry.texture_file);
+    return geometry::read_image(entry.texture_file);
 }
 
 std::vector<std::string> ScanDatabase::subjects() const {

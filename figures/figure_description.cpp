@@ -250,11 +250,11 @@ Panel load_panel(const PanelDescription& description) {
     panel.mesh = std::move(face.mesh);
     const double scale = geometry::millimetres_per(description.unit);
     if (!description.texture.empty()) {
-        panel.texture = geometry::read_png(description.texture);
+        panel.texture = geometry::read_image(description.texture);
     } else if (description.textured) {
         if (face.texture_file.empty())
             throw InputError(fmt::format("{}: names no texture; give one", description.mesh.string()));
-        panel.texture = geometry::read_png(description.mesh.parent_path() / face.texture_file);
+        panel.texture = geometry::read_image(description.mesh.parent_path() / face.texture_file);
     }
     if (!description.landmarks.empty())
         panel.markers.push_back({.name = "landmarks",

@@ -9,6 +9,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/jpeg.h"
 
 namespace mimik::geometry {
 namespace {
@@ -59,7 +60,8 @@ struct PngHeader {
 
 PngHeader parse_png_header(std::span<const std::uint8_t> bytes, const std::string& name) {
     if (bytes.size() < 33 || png_sig_cmp(bytes.data(), 0, 8) != 0 || std::memcmp(bytes.data() + 12, "IHDR", 4) != 0)
-        throw InputError(fmt::format("{}: is not a PNG image (no PNG signature and header); save it as PNG", name));
+        throw InputError(
+            fmt::format("{}: is neither a PNG nor a JPEG image (no signature and header); save it as PNG", name));
     const auto big_endian = [&](std::size_t at) {
         return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 | std::uint32_t{bytes[at + 2]} << 8 |
                bytes[at + 3];
@@ -173,14 +175,25 @@ void write_png(const std::filesystem::path& file, const Image& image) {
     write_atomically(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
-std::array<int, 2> png_size(const std::filesystem::path& file) {
+Image read_image(const std::filesystem::path& file) {
+    const auto bytes = read_bytes(file);
+    return is_jpeg(bytes) ? decode_jpeg(bytes, file.string()) : decode_png(bytes, file.string());
+}
+
+std::array<int, 2> image_size(const std::filesystem::path& file) {
     std::array<std::uint8_t, 33> head{};
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(fmt::format("{}: cannot be opened; is the path right?", file.string()));
     stream.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
+    if (is_jpeg(head)) return jpeg_size(read_bytes(file), file.string());  // its header may stand behind a thumbnail
     const auto header =
         parse_png_header(std::span(head).first(static_cast<std::size_t>(stream.gcount())), file.string());
     return {static_cast<int>(header.width), static_cast<int>(header.height)};
+}
+
+std::vector<std::uint8_t> read_as_png(const std::filesystem::path& file) {
+    auto bytes = read_bytes(file);
+    return is_jpeg(bytes) ? encode_png(decode_jpeg(bytes, file.string())) : bytes;
 }
 
 }  // namespace mimik::geometry

@@ -22,7 +22,12 @@ struct Image {
 [[nodiscard]] Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name);
 void write_png(const std::filesystem::path& file, const Image& image);
 [[nodiscard]] std::vector<std::uint8_t> encode_png(const Image& image);
+
+/// PNG or JPEG, by what the file begins with and not by its name. @throws InputError as read_png and decode_jpeg do.
+[[nodiscard]] Image read_image(const std::filesystem::path& file);
 /// Width and height from the header alone.
-[[nodiscard]] std::array<int, 2> png_size(const std::filesystem::path& file);
+[[nodiscard]] std::array<int, 2> image_size(const std::filesystem::path& file);
+/// For files that hold a PNG: a PNG as it is, a JPEG decoded and encoded anew.
+[[nodiscard]] std::vector<std::uint8_t> read_as_png(const std::filesystem::path& file);
 
 }  // namespace mimik::geometry

@@ -54,7 +54,7 @@ TEST_F(FigureProgram, draws_panels_with_captions_through_the_main_program) {
     const auto ended = figure("-o out.png face.ply - face.ply --size 120x100 --caption '(a)' --view front --json");
     ASSERT_EQ(ended.code, 0) << ended.said;
     EXPECT_THAT(ended.said, AllOf(HasSubstr("\"output\": \"out.png\""), HasSubstr("\"panels\": 3")));
-    const auto size = geometry::png_size(folder_ / "out.png");
+    const auto size = geometry::image_size(folder_ / "out.png");
     EXPECT_EQ(size[0], 3 * 120 + 4 * (Figure{}.font_size_px / 2));
     EXPECT_GT(size[1], 100 + 2 * (Figure{}.font_size_px / 2));
 }

@@ -54,7 +54,7 @@ TEST(Png, every_pixel_comes_back_and_the_size_is_known_from_the_header) {
     EXPECT_EQ(read.width, 37);
     EXPECT_EQ(read.height, 21);
     EXPECT_EQ(read.rgb, image.rgb);
-    EXPECT_EQ(png_size(folder / "a.png"), (std::array<int, 2>{37, 21}));
+    EXPECT_EQ(image_size(folder / "a.png"), (std::array<int, 2>{37, 21}));
 }
 
 TEST(Png, grey_palette_alpha_and_16_bit_images_become_8_bit_rgb) {
@@ -77,7 +77,7 @@ TEST(Png, errors_name_the_file_and_what_is_wrong) {
     };
     const auto bytes = encode_png(gradient(64, 64));
     const std::string good(bytes.begin(), bytes.end());
-    EXPECT_THAT(refused("JFIF"), HasSubstr("a.png: is not a PNG image"));
+    EXPECT_THAT(refused("JFIF"), HasSubstr("a.png: is neither a PNG nor a JPEG image"));
     EXPECT_THAT(refused(good.substr(0, good.size() / 2)),
                 HasSubstr("a.png: the PNG cannot be decoded (the file ends inside its data)"));
     auto damaged = good;
@@ -96,7 +96,7 @@ TEST(Png, errors_name_the_file_and_what_is_wrong) {
                 HasSubstr("4294967295 x 4294967295, more than the 100 million pixels"));
     EXPECT_THAT(refused(with_size(10000, 10000)), HasSubstr("10000 x 10000, but the file has only"));
     EXPECT_THAT(message_of([] { (void)read_png("/nowhere/a.png"); }), HasSubstr("/nowhere/a.png"));
-    EXPECT_THAT(message_of([] { (void)png_size("/nowhere/a.png"); }), HasSubstr("/nowhere/a.png"));
+    EXPECT_THAT(message_of([] { (void)image_size("/nowhere/a.png"); }), HasSubstr("/nowhere/a.png"));
     EXPECT_THAT(message_of([] { (void)encode_png({3, 3, {1, 2}}); }), HasSubstr("3 x 3 pixels with 2 bytes"));
 }
 
