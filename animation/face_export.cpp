@@ -8,6 +8,7 @@
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/glb.h"
+#include "geometry/image.h"
 #include "geometry/mesh_io.h"
 #include "geometry/text.h"
 
