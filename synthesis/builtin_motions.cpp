@@ -82,7 +82,7 @@ const std::map<std::string, Motion>& facial_motions() {
                                         {{0, -74}, {0, -40}, {0, 2.6, 6.2}, 34, 20, 32, Lip::upper},
                                         {{0, -82}, {0, -112}, {0, -7.4, 6.4}, 44, 24, 34, Lip::lower}}};
         // Risorius with platysma.
-        m["mouthStretch"] = {.muscles = {{{24.7, -77}, {70, -88}, {6.8, -2.6, -6.8}, 66, 40, 42}},
+        m["mouthStretch"] = {.muscles = {{{24.7, -77}, {70, -88}, {6.9, -2.6, -6.2}, 64, 40, 42}},
                              .furrows = {{{{37, -66}, {40, -77}, {38, -89}}, 0.5, 2.3}}};
         m["mouthPress"] = {.muscles = {{{13, -90}, {12, -77}, {-0.2, 2.2, 0.4}, 22, 26, 26, Lip::lower}},
                            .bulges = {{{13, -65.5}, 0.9, 16, 6, Lip::upper}, {{13, -90.5}, 1.1, 16, 6.5, Lip::lower}},
@@ -98,7 +98,14 @@ const std::map<std::string, Motion>& facial_motions() {
                           .bulges = {{{46, -70}, 7.0, 50, 48}}};
         m["jawOpen"] = {.central = true, .sphincter = {.jaw_rad = 0.35}};
         // Both lateral pterygoids, or the one of the other side.
-        m["jawForward"] = {.central = true, .sphincter = {.jaw_rad = 0.02, .jaw_forward_mm = 10.5}};
+        // The lower lip comes to stand before the upper one and over its red; the corners are drawn down with the chin.
+        m["jawForward"] = {.central = true,
+                           .muscles = {{{0, -82}, {0, -60}, {0, 3.4, 1.6}, 22, 14, 26, Lip::lower},
+                                       {{24.7, -77}, {28, -110}, {0, -1.8, 0}, 26, 26, 18},
+                                       {{-24.7, -77}, {-28, -110}, {0, -1.8, 0}, 26, 26, 18}},
+                           .furrows = {{{{25, -80}, {30, -92}, {29, -104}}, 0.6, 2.0},
+                                       {{{-25, -80}, {-30, -92}, {-29, -104}}, 0.6, 2.0}},
+                           .sphincter = {.jaw_rad = 0.02, .jaw_forward_mm = 10.5}};
         m["jawLeft"] = {.central = true, .sphincter = {.jaw_left_mm = 8.9}};
         m["jawRight"] = {.central = true, .sphincter = {.jaw_left_mm = -8.9}};
         return m;

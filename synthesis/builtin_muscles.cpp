@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "synthesis/builtin_curves.h"
@@ -41,7 +42,7 @@ double tissue_depth_mm(const SheetVertex& p) {
     depth *= 1 - plateau(p.v + 8, 7, 16) * hump(p.across_eye, 1.9);
     const double red = smooth_step(upper_lip + 2, upper_lip - 2, p.v) * smooth_step(lower_lip - 2, lower_lip + 2, p.v) *
                        (1 - smooth_step(mouth_corner - 5, mouth_corner + 2, a));
-    return depth * (1 - red) * on_front(p.s);
+    return depth * (1 - red) * (1 - smooth_step(44, 76, a));
 }
 
 /// The line with its corners cut (Chaikin), so that a furrow bends like skin.
@@ -89,6 +90,7 @@ MuscleModel::MuscleModel(const Sheet& sheet, std::vector<Point> mean_face_mm)
         // A column that the mouth cuts is two lines: upper lip and lower lip.
         columns[2 * p.column + (sheet.lower_lip_side[i] && std::abs(p.s) < place::mouth_corner ? 1 : 0)].add(i, -p.t);
     }
+    columns_ = columns.size();
     for (auto* set : {&columns, &rows})  // rows last: they smooth over where the columns part
         for (auto& [number, line] : *set) lines_.push_back(std::move(line));
     std::map<std::uint32_t, std::vector<std::uint32_t>> eye;
@@ -307,7 +309,9 @@ void MuscleModel::move_jaw(const Sphincter& jaw, std::span<const Point> neutral_
             w *= smooth_step(-148, gnathion + 2, p.v);
         }
         const double y = neutral_mm[i].y() - axis.x(), z = neutral_mm[i].z() - axis.y();
-        moved[i] += w * (shift + Vector(0, c * y - s * z - y, s * y + c * z - z));
+        // To one side, the skin before the ear follows less: it would hang off the branch of the jaw.
+        const Vector along(shift.x() * (1 - smooth_step(30, 84, a)), shift.y(), shift.z());
+        moved[i] += w * (along + Vector(0, c * y - s * z - y, s * y + c * z - z));
     }
 }
 
@@ -359,9 +363,12 @@ std::vector<Vector> MuscleModel::displacement_mm(const Motion& motion, std::span
 /// Where a triangle of the front of the face has turned too far from how it lay at rest, the motion round it is
 /// smoothed along the sheet until it has not. Lips and lids do turn in; they are left alone.
 void MuscleModel::unfold(std::span<const Point> neutral_mm, std::vector<Vector>& moved) const {
-    constexpr int rounds = 12;
+    constexpr int rounds = 20;
     constexpr double least_cosine = 0.45;  // of the angle by which skin turns: 63 degrees is a fold
-    constexpr double front = 66;           // mm from the midline: here nothing may turn from the scanner
+    constexpr double front = 68;           // mm from the midline: here nothing may turn from the scanner
+    constexpr double underside = -106;     // of the jaw, from here on: it may turn away
+    constexpr double unnoticed = 1e-3;     // a share of the smoothing that is left out, so that it stays local
+    constexpr double tail_mm = 20;         // beyond, smoothing passes on less than that
     const auto free = [&](std::uint32_t i) {
         const auto& p = sheet_.vertices[i];
         const double a = std::abs(p.s);
@@ -369,27 +376,60 @@ void MuscleModel::unfold(std::span<const Point> neutral_mm, std::vector<Vector>&
         const bool lip = a < 30 && p.v < -64 && p.v > -92;
         return !lid && !lip;
     };
+    const auto lines_from = [&](std::size_t first, std::size_t last) {
+        return std::span(lines_).subspan(first, last - first);
+    };
+    const auto columns = lines_from(0, columns_), rows = lines_from(columns_, lines_.size());
+    std::vector<std::uint32_t> suspects(triangles_.size());
+    std::iota(suspects.begin(), suspects.end(), 0U);
+    std::vector<double> folded, smooth(moved.size());
     for (int round = 0; round < rounds; ++round) {
-        std::vector<double> folded(moved.size(), 0);
+        folded.assign(moved.size(), 0);
         bool any = false;
-        for (const auto& t : triangles_) {
+        for (const auto index : suspects) {
+            const auto& t = triangles_[index];
             const Point &a = neutral_mm[t[0]], &b = neutral_mm[t[1]], &c = neutral_mm[t[2]];
             const Vector was = (b - a).cross(c - a);
             const Vector is = (b - a + moved[t[1]] - moved[t[0]]).cross(c - a + moved[t[2]] - moved[t[0]]);
-            const bool away = is.z() <= 0 && was.z() > 0 && std::abs(sheet_.vertices[t[0]].s) < front;
+            const auto& p = sheet_.vertices[t[0]];
+            const bool away = is.z() <= 0 && was.z() > 0 && std::abs(p.s) < front && p.v > underside;
             if ((!away && is.dot(was) >= least_cosine * is.norm() * was.norm()) || !free(t[0])) continue;
             any = true;
             for (const auto i : t) folded[i] = 1;
         }
         if (!any) return;
-        for (const auto& line : lines_) smooth_along(line, folded);
+        for (const auto& set : {columns, rows}) {
+            for (const auto& line : set) smooth_along(line, folded);
+            for (auto& f : folded) f = f < unnoticed ? 0 : f;
+        }
         for (std::size_t i = 0; i < moved.size(); ++i)
             folded[i] = free(static_cast<std::uint32_t>(i)) ? std::min(1.0, 4 * folded[i]) : 0;
+        // Only what is near is smoothed.
+        const auto touched = [&](const SheetLine& line) {
+            return std::any_of(line.vertices.begin(), line.vertices.end(), [&](auto i) { return folded[i] > 0; });
+        };
+        const auto place_of = [&](const SheetLine& column) { return sheet_.vertices[column.vertices.front()].s; };
+        std::vector<double> touched_s;
+        for (const auto& column : columns)
+            if (touched(column)) touched_s.push_back(place_of(column));
+        std::vector<const SheetLine*> near;
+        for (const auto& column : columns)
+            if (std::any_of(touched_s.begin(), touched_s.end(),
+                            [&](double s) { return std::abs(s - place_of(column)) < tail_mm; }))
+                near.push_back(&column);
+        for (const auto& row : rows)
+            if (touched(row)) near.push_back(&row);
         for (int axis = 0; axis < 3; ++axis) {
-            std::vector<double> smooth(moved.size());
             for (std::size_t i = 0; i < moved.size(); ++i) smooth[i] = moved[i][axis];
-            for (const auto& line : lines_) smooth_along(line, smooth);
-            for (std::size_t i = 0; i < moved.size(); ++i) moved[i][axis] += folded[i] * (smooth[i] - moved[i][axis]);
+            for (const auto* line : near) smooth_along(*line, smooth);
+            for (std::size_t i = 0; i < moved.size(); ++i)
+                if (folded[i] > 0) moved[i][axis] += folded[i] * (smooth[i] - moved[i][axis]);
+        }
+        // What did not move has not turned.
+        suspects.clear();
+        for (std::uint32_t index = 0; index < triangles_.size(); ++index) {
+            const auto& t = triangles_[index];
+            if (folded[t[0]] > 0 || folded[t[1]] > 0 || folded[t[2]] > 0) suspects.push_back(index);
         }
     }
 }

@@ -109,6 +109,7 @@ private:
     std::vector<geometry::Triangle> triangles_;
     std::vector<double> depth_;                       ///< of the soft tissue that is gathered and thinned, mm
     std::vector<SheetLine> lines_;                    ///< all columns, then all rows
+    std::size_t columns_ = 0;                         ///< how many of the lines are columns
     std::vector<double> held_;                        ///< 0 at the rim of the sheet, 1 inside
     std::vector<std::array<std::uint32_t, 2>> seam_;  ///< upper and lower vertex of the mouth line, column after column
     std::vector<std::vector<std::uint32_t>> eye_columns_;  ///< left eye: per column, vertices from upper lid fold down

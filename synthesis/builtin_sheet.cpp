@@ -54,17 +54,17 @@ constexpr std::array<Curve, 14> curves = {{
 }};
 constexpr std::array<Curve, 3> under_curves = {{
     {-121,
-     {0, 13, 25, 34.5, 41, 46, 50.5, 55, 58},
-     {-121, -120, -116.5, -111, -107, -103, -97, -85, -72},
-     {-11.5, -14.5, -25, -39, -49, -58.5, -70, -84, -98}},
+     {0, 13, 25.5, 35.5, 41.7, 46, 50, 55, 58},
+     {-121, -120, -117, -112, -107.5, -103, -97, -85, -72},
+     {-11.5, -14.5, -24.5, -38, -48.5, -59, -71, -85, -98.5}},
     {-132,
-     {0, 12, 23, 31, 37, 41.5, 45.5, 50.5, 54},
-     {-127, -126.5, -124, -119.5, -115.5, -111, -105, -94, -80},
-     {-31, -33.5, -41, -51, -58, -66, -76, -88, -100}},
+     {0, 12, 23, 32, 37.5, 41.5, 45, 50, 54},
+     {-127.5, -127, -124, -118.5, -112.5, -106.5, -98.5, -86, -73},
+     {-28.5, -31.5, -41, -53, -63, -73, -84, -96, -107}},
     {-150,
-     {0, 12, 22.5, 30, 35.5, 39.5, 43, 47, 50},
-     {-141, -141, -139, -135, -131, -127, -120, -108, -92},
-     {-47, -48.5, -54, -61, -67, -73, -80, -90, -101}},
+     {0, 11, 21, 28.5, 33, 36, 39, 44, 49},
+     {-132.5, -131.8, -128, -121, -114, -107.2, -99, -86.5, -73.5},
+     {-48, -51, -58, -68, -77, -86, -96, -106, -114}},
 }};
 
 struct Stretch {
@@ -177,8 +177,9 @@ private:
 std::string region_of(const SheetVertex& p) {
     using namespace place;
     const double a = std::abs(p.s);
-    if (p.v < upper_lid && p.v > lower_lid && std::abs(p.across_eye) < 1) return "eye";
-    if (p.v < upper_lid + 1.4 && p.v > lower_lid - 1.4 && std::abs(p.across_eye) < 1) return "lid";
+    if (p.v < upper_lid && p.v > lower_lid && std::abs(p.across_eye) < 1)
+        return cornea_radius(p.across_eye, p.t) < 0.9 ? "eye" : "sclera";
+    if (p.v < upper_lid + 0.8 && p.v >= upper_lid && std::abs(p.across_eye) < 1) return "lid";
     if (p.v <= upper_lip && p.v >= lower_lip && a <= mouth_corner) return "lip";
     if (std::hypot((a - 7.0) / 3.0, (p.t + 52.2) / 1.7) < 1) return "nostril";
     const double thickness = 4.2 - 2.4 * smooth_step(34, 52, a);
@@ -204,6 +205,10 @@ LidThickness lid_thickness_mm(double across_eye, double v) {
     const double edge_mm = 0.35 * std::min(1.0, 2.5 * taper);
     return {(edge_mm + 1.25 * taper) * smooth_step(upper_lid - 0.2, upper_lid + 0.9, v),
             (edge_mm + 0.75 * taper) * smooth_step(lower_lid + 0.2, lower_lid - 0.9, v)};
+}
+
+double cornea_radius(double across_eye, double t) {
+    return std::hypot(13.8 * across_eye + 0.5, t - place::eye - 0.8 * across_eye) / 6.0;
 }
 
 double brow_line(double a) { return 11 + 4.5 * smooth_step(8, 34, a) - 6 * smooth_step(34, 58, a); }

@@ -32,8 +32,8 @@ struct SheetVertex {
     std::uint32_t row = 0, column = 0;
 };
 
-/// The fixed topology of the built-in face: rows from hairline to neck, columns from ear to ear, the row of the mouth
-/// doubled between the corners so that the lips can part.
+/// The fixed topology of the built-in face: rows from hairline to under the jaw, columns from ear to ear, the row of
+/// the mouth doubled between the corners so that the lips can part.
 struct Sheet {
     std::vector<SheetVertex> vertices;
     std::vector<double> row_v, row_t;           ///< per row, at the midline
@@ -56,6 +56,9 @@ struct LidThickness {
     double upper, lower;
 };
 [[nodiscard]] LidThickness lid_thickness_mm(double across_eye, double v);
+
+/// How far from the middle of the cornea: 1 on its rim.
+[[nodiscard]] double cornea_radius(double across_eye, double t);
 
 /// Height of the middle of the brow over the nasion at `a` mm from the midline of the mean face.
 [[nodiscard]] double brow_line(double a);

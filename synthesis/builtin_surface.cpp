@@ -54,9 +54,9 @@ struct NoseSection {
 };
 NoseSection nose_section(double t) {
     // Nearly a bell of deviation w / sqrt(2 shoulder), about 0.6 of its height: walls of 45 degrees from a narrow root
-    // (5 mm) to a broad tip (9 mm).
+    // (7 mm) to a broad tip (9 mm).
     static const MonotoneCurve width({-60, -55.3, -53, -50.5, -48.5, -46, -43, -34, -20, -9, 0, 8, 16},
-                                     {24, 15, 9, 9.5, 12.5, 15.5, 18, 21, 22.5, 21.5, 20.5, 21, 22});
+                                     {24, 15, 9, 9.5, 12.5, 15, 17, 19.5, 21.5, 21, 20.5, 21, 22});
     static const MonotoneCurve shoulder({-50, -46, -43, -37, -30, -22, -9, 0, 10, 26, 90},
                                         {1.6, 1.9, 2.3, 2.6, 3.0, 4.2, 7.5, 7.8, 4.6, 2.2, 2});
     return {width(t), shoulder(t)};
@@ -65,7 +65,7 @@ NoseSection nose_section(double t) {
 double compact(double q, double shoulder) { return q * q >= 1 ? 0 : std::pow(1 - q * q, shoulder); }
 
 /// As compact, but flatter in the middle: the back of a nose is a strip, not an edge.
-double ridge_section(double q, double shoulder) { return q >= 1 ? 0 : std::pow(1 - std::pow(q, 2.1), shoulder); }
+double ridge_section(double q, double shoulder) { return q >= 1 ? 0 : std::pow(1 - std::pow(q, 2.5), shoulder); }
 
 /// How far the relief of the midline over the muzzle reaches sideways on the lower face: lips, sulcus, chin.
 double relief_section(double a, double v, double chin_reach) {
@@ -192,7 +192,7 @@ private:
                        -26.5 - 5.5 * slope}),
                 Table({bottom, -140, -132, -126, gnathion, -115, pogonion, -101, sulcus, -90, lower_lip, -81.5, -79,
                        -77.8, stomion},
-                      {gn - 36, gn - 28.5, gn - 19, gn - 8.5, gn, pog - 4.0, pog, 0.35 * sl + 0.65 * pog + 0.3, sl,
+                      {gn - 36.5, gn - 26.5, gn - 17, gn - 7.5, gn, pog - 4.0, pog, 0.35 * sl + 0.65 * pog + 0.3, sl,
                        0.55 * sl + 0.45 * li - 0.5, li, li + 1.5, li + 0.4, sto + 2.4, sto})};
     }
     [[nodiscard]] double midline_at(double v, double t) const {
@@ -317,13 +317,16 @@ private:
         const double dy = p.t - eye - 0.8 * q;
         const double tall = 13.2;
         const double r2 = q * q * 0.84 + (dy / tall) * (dy / tall);
-        double ball = -22.8 - deep + 12.4 * std::sqrt(std::max(0.03, 1 - r2)) - 2.9 * q;
-        ball -= 30 * smooth_step(0.93, 1.5, std::sqrt(r2));
+        // Under the eye the ball runs on straight: where it fell away, its rim stood out as a second lid.
+        const double r = std::sqrt(r2), below = smooth_step(-3, -8, above_middle);
+        const double round = std::sqrt(std::max(0.03, 1 - r2)) - 2.4 * smooth_step(0.93, 1.5, r);
+        const double straight = (r < 0.6 ? round : 0.8 - 0.75 * (r - 0.6)) - 0.6 * smooth_step(0.9, 1.6, std::abs(q));
+        const double ball = -22.8 - deep + 12.4 * (round + below * (straight - round)) - 2.9 * q;
         const auto lid = lid_thickness_mm(q, v);
         const bool open = v < upper_lid && v > lower_lid && std::abs(q) < 1;
         double eye_z = ball + lid.upper + lid.lower;
         if (open) {  // cornea
-            const double c = std::hypot(q * 13.8 + 0.5, dy) / 6.0;
+            const double c = cornea_radius(q, p.t);
             if (c < 1) eye_z += 1.1 * (1 - c * c) * (1 - c * c);
         }
         const double socket = z - deep * bell(q, 0.8) * hump(above_middle, 16);
@@ -334,8 +337,8 @@ private:
         const double along = hump(q - 0.05, 1.2);
         const double hood = 1 + 0.3 * face_[Form::lid_hooding];
         z += along * (-0.8 * bell(fold, 0.95) + 0.8 * hood * bell(fold - 3.6, 2.2));
-        // Pouch and furrow of the lower lid.
-        z += 0.15 * along * bell(v - (lower_lid - 2.4), 1.5) - 0.15 * along * bell(v - (lower_lid - 6.0), 2.2);
+        // Pouch of the lower lid.
+        z += 0.15 * along * bell(v - (lower_lid - 2.4), 1.5);
     }
 
     const Sheet& sheet_;

@@ -71,7 +71,7 @@ Complexion draw_complexion(const FaceModel& model, const Subject& subject, const
         const auto blotch = blotches.at(resting);
         Colour colour = palette.skin + Colour(2, -3, -3) * blotch[0] + Colour(3, 3, 3) * blotch[1];
         if (regions[i] == "lip") colour = palette.lip + Colour(3, 2, 2) * blotch[1];
-        if (regions[i] == "eye") complexion.eyeball[i] = 1.0;
+        if (regions[i] == "eye" || regions[i] == "sclera") complexion.eyeball[i] = 1.0;
         if (regions[i] == "brow") hairiness[i] = 0.8;
         if (regions[i] == "nostril") colour *= 0.45;
         if (regions[i] == "lid") colour = mix(colour, palette.hair, 0.18);

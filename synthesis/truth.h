@@ -29,8 +29,8 @@ struct Truth {
     std::string face_model;
     std::vector<TrueSubject> subjects;
     std::vector<database::ScanId> scans;
-    geometry::Faces faces;                    ///< of every true surface
-    std::vector<std::string> vertex_regions;  ///< "skin", "lip", "brow", "eye", "lid", "nostril" per vertex
+    geometry::Faces faces;                                   ///< of every true surface
+    std::vector<std::string> vertex_regions;                 ///< "skin", "lip", "brow", "eye", "sclera", ... per vertex
     std::map<std::string, std::uint32_t> landmark_vertices;  ///< name -> vertex of every true surface
 
     [[nodiscard]] bool has(const database::ScanId& id) const;
