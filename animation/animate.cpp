@@ -151,6 +151,38 @@ std::vector<Vector> expression_field(const TargetFace& target, const ExpressionM
     return field;
 }
 
+FieldExtent field_extent(const geometry::QuadGrid& grid, std::span<const Vector> field_mm,
+                         const Eigen::Matrix3d& frame_from_field) {
+    FieldExtent extent;
+    const auto keep_largest = [&](double& largest, const Vector& difference) {
+        const double length = (frame_from_field * difference).norm();
+        if (!(length <= largest)) largest = std::isnan(length) ? std::numeric_limits<double>::infinity() : length;
+    };
+    for (int row = 0; row < grid.rows; ++row)
+        for (int col = 0; col < grid.cols; ++col) {
+            const auto a = grid.index(row, col);
+            if (!grid.inside(a)) continue;
+            keep_largest(extent.largest_displacement_mm, field_mm[a]);
+            for (const auto& [r, c] : {std::pair{row + 1, col}, std::pair{row, col + 1}}) {
+                if (r >= grid.rows || c >= grid.cols) continue;
+                const auto b = grid.index(r, c);
+                if (grid.inside(b)) keep_largest(extent.largest_neighbour_step_mm, field_mm[a] - field_mm[b]);
+            }
+        }
+    return extent;
+}
+
+namespace {
+
+[[noreturn]] void refuse_overflow(const std::string& what) {
+    throw NumericalError(
+        fmt::format("{}: a displacement is too large for a number; give a smaller magnitude, or a "
+                    "model whose displacements are millimetres of a face",
+                    what));
+}
+
+}  // namespace
+
 AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpression> expressions,
                      const AnimationOptions& options) {
     AnimatedFace result;
@@ -167,6 +199,9 @@ AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpressio
                                                  model->expression, magnitude));
         auto field = expression_field(target, *model, options, &result.points, &result.remarks);
         for (auto& displacement : field) displacement = scan_from_average * displacement;
+        if (const auto extent = field_extent(result.grid, field, magnitude * Eigen::Matrix3d::Identity());
+            !std::isfinite(extent.largest_displacement_mm))
+            refuse_overflow(fmt::format("{} at magnitude {}", model->expression, magnitude));
         result.fields_mm.push_back(std::move(field));
     }
     result.displacement_mm.assign(n, Vector::Zero());
@@ -179,18 +214,9 @@ AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpressio
         else
             for (const auto& pull : pulls) result.displacement_mm[v] += pull;
         result.grid.vertices_mm[v] += result.displacement_mm[v];
-        result.largest_displacement_mm = std::max(result.largest_displacement_mm, result.displacement_mm[v].norm());
     }
-    for (int row = 0; row < result.grid.rows; ++row)
-        for (int col = 0; col < result.grid.cols; ++col)
-            for (const auto& [r, c] : {std::pair{row + 1, col}, std::pair{row, col + 1}}) {
-                if (r >= result.grid.rows || c >= result.grid.cols) continue;
-                const auto a = result.grid.index(row, col), b = result.grid.index(r, c);
-                if (result.grid.inside(a) && result.grid.inside(b))
-                    result.largest_neighbour_step_mm =
-                        std::max(result.largest_neighbour_step_mm,
-                                 (result.displacement_mm[a] - result.displacement_mm[b]).norm());
-            }
+    result.extent = field_extent(result.grid, result.displacement_mm);
+    if (!std::isfinite(result.extent.largest_displacement_mm)) refuse_overflow("the expressions together");
     return result;
 }
 

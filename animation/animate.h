@@ -81,6 +81,15 @@ struct CarriedPoint {
     double projection_mm = 0.0;        ///< how far the spline's answer lay from the target's surface, average frame
 };
 
+/// How far a field moves the vertices inside a grid; infinite where a number is not finite.
+struct FieldExtent {
+    double largest_displacement_mm = 0.0;
+    double largest_neighbour_step_mm = 0.0;  ///< largest change of displacement between neighbouring vertices
+};
+/// @param frame_from_field  linear part of the way to the frame in which lengths are wanted
+[[nodiscard]] FieldExtent field_extent(const geometry::QuadGrid& grid, std::span<const geometry::Vector> field_mm,
+                                       const Eigen::Matrix3d& frame_from_field = Eigen::Matrix3d::Identity());
+
 struct AnimatedFace {
     geometry::QuadGrid grid;                        ///< scanner frame of the target's neutral scan; origins as there
     std::vector<geometry::Vector> displacement_mm;  ///< per vertex, scanner frame
@@ -88,8 +97,7 @@ struct AnimatedFace {
     std::vector<std::vector<geometry::Vector>> fields_mm;  ///< of each expression alone at magnitude 1, scanner frame
     std::vector<CarriedPoint> points;
     std::vector<std::string> remarks;  ///< merged points, magnitudes above 1, ...
-    double largest_displacement_mm = 0.0;
-    double largest_neighbour_step_mm = 0.0;  ///< largest change of displacement between neighbouring vertices
+    FieldExtent extent;                ///< of displacement_mm, scanner frame
 };
 
 /// The displacement of every vertex under one model at magnitude 1, average frame. The field at another magnitude m is
@@ -102,7 +110,8 @@ struct AnimatedFace {
                                                              std::vector<CarriedPoint>* points = nullptr,
                                                              std::vector<std::string>* remarks = nullptr);
 
-/// Animates a neutral face with one or more expressions.
+/// Animates a neutral face with one or more expressions. @throws as expression_field; NumericalError naming the
+/// expression whose displacements are not finite.
 [[nodiscard]] AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpression> expressions,
                                    const AnimationOptions& options = {});
 

@@ -12,6 +12,7 @@
 #include "animation/face_export.h"
 #include "cli/command.h"
 #include "cli/method_options.h"
+#include "cli/regions_file.h"
 #include "geometry/errors.h"
 #include "modeling/region_labels.h"
 #include "modeling/source_expression.h"
@@ -28,10 +29,17 @@ struct Arguments {
     bool keep_bridged = false, arkit_names = false;
 };
 
-/// A model of a file, as good as one measured now: nobody who must not be shown is in it.
+/// A model of a file, as good as one measured now: nobody who must not be shown is in it, and what was made otherwise
+/// is said.
 modeling::ExpressionModel read_model(const preprocessing::Workspace& workspace, const std::string& file,
-                                     const std::string& target, std::vector<std::string>& remarks) {
+                                     const std::string& target, const modeling::ModelProvenance& here,
+                                     std::vector<std::string>& remarks) {
     auto model = modeling::read_expression_model(file);
+    if (model.provenance)
+        if (const auto other = modeling::differences(*model.provenance, here); !other.empty())
+            remarks.push_back(fmt::format("{}: made otherwise than this animation: {}", file, fmt::join(other, "; ")));
+    for (const auto& scan : model.unusable_scans)
+        remarks.push_back(fmt::format("{}: left out of the mean: {}", file, scan));
     bool of_target = false;
     for (const auto& name : model.sources)
         if (const auto scan = database::parse_scan_name(name)) {
@@ -40,6 +48,16 @@ modeling::ExpressionModel read_model(const preprocessing::Workspace& workspace, 
         }
     if (of_target) remarks.push_back(fmt::format("{}: scans of the target itself are in this model", file));
     return model;
+}
+
+/// The file that was named, else the one that 'mimik regions' wrote and somebody may have edited, else as drawn.
+modeling::RegionLabels region_labels(const preprocessing::Workspace& workspace, std::filesystem::path file) {
+    const auto& average = workspace.average();
+    if (file.empty()) {
+        file = default_regions_file(workspace);
+        if (!std::filesystem::exists(file)) return modeling::label_regions(average.grid, average.landmarks);
+    }
+    return modeling::read_region_labels(file, average);
 }
 
 int run(Arguments& arguments) {
@@ -55,13 +73,14 @@ int run(Arguments& arguments) {
     const modeling::ExpressionSource source{arguments.source, {arguments.target}};
     if (arguments.action_units.empty() && arguments.model_files.empty())
         throw InputError("there is nothing to animate; give --au, such as 12, or --model, a file of 'mimik model'");
+    if (!arguments.action_units.empty()) modeling::check_source(workspace, source, model_options);
 
     const auto neutral = workspace.face(workspace.neutral(arguments.target));
     const animation::TargetFace target(neutral, model_options.frame, arguments.method.thesis());
     std::vector<modeling::ExpressionModel> models;
     std::vector<animation::WeightedExpression> expressions;
     std::vector<animation::NamedMagnitude> names;
-    std::vector<std::string> remarks;
+    std::vector<std::string> remarks, failures;
     const auto named = [&](const modeling::ExpressionModel& model, double magnitude) {
         return animation::NamedMagnitude{
             arguments.arkit_names ? modeling::arkit_name(catalogue, model.expression) : model.expression, magnitude,
@@ -70,20 +89,21 @@ int run(Arguments& arguments) {
     for (const auto& text : arguments.action_units) {
         const auto selection = modeling::parse_selection(text);
         models.push_back(modeling::model_from_workspace(workspace, catalogue, selection.code, source, model_options));
+        for (const auto& scan : models.back().unusable_scans)
+            failures.push_back(fmt::format("{}: left out of the mean: {}", models.back().expression, scan));
         names.push_back(named(models.back(), selection.magnitude));
     }
+    const auto here = arguments.method.provenance(catalogue, workspace.average());
     for (const auto& text : arguments.model_files) {
         const auto file =
             std::filesystem::exists(text) ? modeling::Selection{text, 1.0} : modeling::parse_selection(text);
-        models.push_back(read_model(workspace, file.code, arguments.target, remarks));
+        models.push_back(read_model(workspace, file.code, arguments.target, here, remarks));
         names.push_back(named(models.back(), file.magnitude));
     }
     for (std::size_t k = 0; k < models.size(); ++k) expressions.push_back({&models[k], names[k].magnitude});
     if (!arguments.hold.empty()) {
         const auto& average = workspace.average();
-        const auto labels = arguments.regions.empty()
-                                ? modeling::label_regions(average.grid, average.landmarks)
-                                : modeling::read_region_labels(arguments.regions, average.grid.rows, average.grid.cols);
+        const auto labels = region_labels(workspace, arguments.regions);
         animation_options.keep =
             modeling::held_weights(labels, average, neutral, arguments.hold, animation_options.border_mm);
     }
@@ -94,6 +114,9 @@ int run(Arguments& arguments) {
         arguments.frame == "average" ? animation::OutputFrame::average : animation::OutputFrame::scanner;
     export_options.bridged =
         arguments.keep_bridged ? geometry::BridgedVertices::keep : geometry::BridgedVertices::leave_out;
+    const auto extent = arguments.frame == "average" ? animation::field_extent(animated.grid, animated.displacement_mm,
+                                                                               target.average_from_scan().linear())
+                                                     : animated.extent;
     std::filesystem::path texture = neutral.texture_file;
     remarks.insert(remarks.end(), animated.remarks.begin(), animated.remarks.end());
     if (!texture.empty() && !std::filesystem::exists(texture)) {
@@ -124,9 +147,10 @@ int run(Arguments& arguments) {
                                     {"frame", arguments.frame},
                                     {"units", "mm"},
                                     {"expressions", list},
-                                    {"largest_displacement_mm", animated.largest_displacement_mm},
-                                    {"largest_neighbour_step_mm", animated.largest_neighbour_step_mm},
+                                    {"largest_displacement_mm", extent.largest_displacement_mm},
+                                    {"largest_neighbour_step_mm", extent.largest_neighbour_step_mm},
                                     {"remarks", remarks},
+                                    {"failures", failures},
                                     {"output", arguments.output}}
                          .dump(1)
                   << '\n';
@@ -136,9 +160,10 @@ int run(Arguments& arguments) {
         std::vector<std::string> asked = arguments.action_units;
         asked.insert(asked.end(), arguments.model_files.begin(), arguments.model_files.end());
         std::cout << fmt::format("{}: {} from {} on {}, up to {:.1f} mm\n", arguments.output, fmt::join(asked, " + "),
-                                 source_words, neutral.id.name(), animated.largest_displacement_mm);
+                                 source_words, neutral.id.name(), extent.largest_displacement_mm);
     }
-    return exit_done;
+    for (const auto& failure : failures) std::cerr << failure << '\n';
+    return failures.empty() ? exit_done : exit_done_with_failures;
 }
 
 }  // namespace
@@ -162,10 +187,16 @@ void add_animate_command(CLI::App& app, int& exit_code) {
     command->add_option("--combine", arguments->combine, "Several AUs: sum, or parallel (equal pulls do not double)")
         ->check(CLI::IsMember({"sum", "parallel"}))
         ->capture_default_str();
-    command->add_option("--hold", arguments->hold, "Regions that stay still, e.g. nose,eye_left (see 'mimik regions')")
-        ->delimiter(',');
-    command->add_option("--regions", arguments->regions, "Another label file than the one that Mimik draws")
-        ->check(CLI::ExistingFile);
+    auto* hold =
+        command
+            ->add_option("--hold", arguments->hold, "Regions that stay still, e.g. nose,eye_left (see 'mimik regions')")
+            ->delimiter(',');
+    command
+        ->add_option(
+            "--regions", arguments->regions,
+            "Label file for --hold (default: average/regions.csv in the workspace if it is there, else as drawn)")
+        ->check(CLI::ExistingFile)
+        ->needs(hold);
     command->add_option("--frame", arguments->frame, "Millimetres of the target's own scan, or of the average face")
         ->check(CLI::IsMember({"scanner", "average"}))
         ->capture_default_str();

@@ -36,7 +36,8 @@ PointCounts count_points(const modeling::ActionUnit& unit) {
 
 nlohmann::json unit_to_json(const modeling::ActionUnit& unit) {
     auto muscles = nlohmann::json::array();
-    for (const auto& muscle : unit.muscles) muscles.push_back({{"name", muscle.name}, {"source", muscle.source}});
+    for (const auto& muscle : unit.muscles)
+        muscles.push_back({{"name", muscle.name}, {"source", muscle.source}, {"reference", muscle.reference}});
     const auto counts = count_points(unit);
     return {{"number", unit.number},
             {"name", unit.name},
@@ -48,6 +49,21 @@ nlohmann::json unit_to_json(const modeling::ActionUnit& unit) {
             {"arkit_whole", unit.arkit_whole},
             {"muscle_points", counts.muscle},
             {"wrinkle_points", counts.wrinkle}};
+}
+
+/// Every reference once, with the AUs whose muscles it stands for.
+void list_references(const modeling::FacsCatalogue& catalogue) {
+    std::vector<std::pair<std::string_view, std::vector<int>>> references;
+    for (const auto& unit : catalogue.units())
+        for (const auto& muscle : unit.muscles) {
+            auto known = std::find_if(references.begin(), references.end(),
+                                      [&](const auto& entry) { return entry.first == muscle.reference; });
+            if (known == references.end()) known = references.insert(known, {muscle.reference, {}});
+            if (known->second.empty() || known->second.back() != unit.number) known->second.push_back(unit.number);
+        }
+    std::cout << "\nMuscles after:\n";
+    for (const auto& [reference, numbers] : references)
+        std::cout << fmt::format("  {} (AU {})\n", reference, fmt::join(numbers, ", "));
 }
 
 void list_units(const modeling::FacsCatalogue& catalogue, const std::string& name) {
@@ -65,6 +81,7 @@ void list_units(const modeling::FacsCatalogue& catalogue, const std::string& nam
     if (!catalogue.emotions().empty()) std::cout << '\n';
     for (const auto& emotion : catalogue.emotions())
         std::cout << fmt::format("{:<10} {}\n", emotion.name, fmt::join(emotion.action_units, "+"));
+    list_references(catalogue);
 }
 
 int lint(const Request& request, const std::string& text, const std::string& name) {

@@ -37,11 +37,18 @@ int run(CLI::App& app, int argc, char** argv, const int& exit_code) {
         std::cerr << app.get_name() << ": " << e.what() << '\n';
         return code;
     };
+    // A result that nobody gets is none: on a full disk the streams fail in silence.
+    const auto after_output = [&](int code) {
+        std::cout.flush();
+        if (std::cout) return code;
+        std::cerr << app.get_name() << ": standard output takes no more (disk full, or closed); nothing can be said\n";
+        return static_cast<int>(exit_bad_input);
+    };
     try {
         app.parse(argc, argv);
-        return exit_code;
+        return after_output(exit_code);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? exit_done : exit_bad_input;
+        return after_output(app.exit(e) == 0 ? exit_done : exit_bad_input);
     } catch (const NumericalError& e) {
         return report(e, exit_no_answer);
     } catch (const std::exception& e) {  // InputError; or the system refused a file, memory, a thread

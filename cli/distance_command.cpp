@@ -13,6 +13,7 @@
 #include "geometry/mesh_io.h"
 #include "geometry/points_csv.h"
 #include "geometry/text.h"
+#include "geometry/vertex_attributes.h"
 
 namespace mimik::cli {
 namespace {
@@ -43,12 +44,21 @@ std::string line_of(const char* side, const DistanceSummary& s) {
 }
 
 void write_distances(const std::filesystem::path& file, geometry::Mesh mesh, const VertexDistances& distances) {
-    mesh.attributes.push_back({"distance_mm", 1, distances.distance_mm});
-    mesh.attributes.push_back({"on_border", 1, {distances.on_border.begin(), distances.on_border.end()}});
+    geometry::set_attribute(mesh, {"distance_mm", 1, distances.distance_mm});
+    geometry::set_attribute(mesh, {"on_border", 1, {distances.on_border.begin(), distances.on_border.end()}});
     geometry::write_mesh(file, mesh);
 }
 
+/// Found out before the work: the other formats would drop the distances in silence.
+void check_output(const std::filesystem::path& file) {
+    const auto extension = geometry::lower_case(file.extension().string());
+    if (!file.empty() && extension != ".vtp" && extension != ".ply")
+        throw InputError(
+            fmt::format("{}: extension '{}' holds no value per vertex; give .vtp or .ply", file.string(), extension));
+}
+
 void run(const Request& request) {
+    check_output(request.output);
     for (const auto& file : {request.test, request.reference}) database::refuse_hidden_file(file);
     auto test = read_test(request.test);
     const auto reference = geometry::read_mesh(request.reference);

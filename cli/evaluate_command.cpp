@@ -10,6 +10,7 @@
 #include "evaluation/experiment.h"
 #include "evaluation/score_table.h"
 #include "geometry/file.h"
+#include "geometry/output_folder.h"
 
 namespace mimik::cli {
 namespace {
@@ -40,7 +41,8 @@ int run(Arguments& arguments) {
             std::cout << nlohmann::json{{"schema", 1},
                                         {"dry_run", true},
                                         {"transfers", estimate.transfers},
-                                        {"seconds", seconds}}
+                                        {"seconds", seconds},
+                                        {"megabytes", 1.0}}
                              .dump(1)
                       << '\n';
         else
@@ -49,12 +51,7 @@ int run(Arguments& arguments) {
         return exit_done;
     }
     const std::filesystem::path folder = arguments.output;
-    if (!arguments.output.empty()) {
-        // A folder that takes no file is found out before the work.
-        const auto probe = folder / "scores.probe";
-        geometry::write_atomically(probe, "");
-        std::filesystem::remove(probe);
-    }
+    if (!arguments.output.empty()) geometry::check_takes_files(folder);
     const std::size_t steps = evaluation::experiment_steps(workspace, options);
     evaluation::ExperimentReport report;
     {

@@ -1,5 +1,9 @@
 #include "cli/method_options.h"
 
+#include <filesystem>
+
+#include "modeling/average_fingerprint.h"
+
 namespace mimik::cli {
 
 void MethodArguments::add_to(CLI::App& command) {
@@ -44,6 +48,23 @@ animation::AnimationOptions MethodArguments::animation_options() const {
     auto options = thesis() ? animation::AnimationOptions::thesis() : animation::AnimationOptions{};
     apply_switches(*this, options, options.landmark_smoothing);
     return options;
+}
+
+modeling::ModelProvenance MethodArguments::provenance(const modeling::FacsCatalogue& catalogue,
+                                                      const preprocessing::AverageFace& average) const {
+    return {MIMIK_VERSION,
+            name,
+            model_options(),
+            catalogue.name(),
+            catalogue.content_hash(),
+            modeling::average_fingerprint(average)};
+}
+
+std::string MethodArguments::variant_name() const {
+    const auto usual = thesis() ? modeling::ModelOptions::thesis() : modeling::ModelOptions{};
+    auto variant = name + modeling::variant_suffix(model_options(), usual);
+    if (!catalogue_file.empty()) variant += "_catalogue-" + std::filesystem::path(catalogue_file).stem().string();
+    return variant;
 }
 
 }  // namespace mimik::cli

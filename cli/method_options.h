@@ -22,6 +22,11 @@ struct MethodArguments {
     [[nodiscard]] modeling::FacsCatalogue catalogue() const;
     [[nodiscard]] modeling::ModelOptions model_options() const;
     [[nodiscard]] animation::AnimationOptions animation_options() const;
+    /// What a model made by these switches says of itself.
+    [[nodiscard]] modeling::ModelProvenance provenance(const modeling::FacsCatalogue& catalogue,
+                                                       const preprocessing::AverageFace& average) const;
+    /// "default", and what the switches change of it: "default_r2logr_no-anchors_catalogue-mine".
+    [[nodiscard]] std::string variant_name() const;
 };
 
 }  // namespace mimik::cli

@@ -23,25 +23,30 @@ struct Arguments {
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
     const auto catalogue = arguments.method.catalogue();
-    const std::filesystem::path folder = arguments.output.empty() ? workspace.root() / "models" / arguments.method.name
-                                                                  : std::filesystem::path(arguments.output);
+    const std::filesystem::path folder = arguments.output.empty()
+                                             ? workspace.root() / "models" / arguments.method.variant_name()
+                                             : std::filesystem::path(arguments.output);
     // A word mistyped is found out before any work.
     for (auto& expression : arguments.expressions) expression = catalogue.code(expression);
     for (const auto& source : arguments.sources) {
-        workspace.refuse_hidden(source);
+        modeling::check_source(workspace, {source, {}}, arguments.method.model_options());
         if (source != "mean") (void)workspace.neutral(source);
     }
 
+    const auto provenance = arguments.method.provenance(catalogue, workspace.average());
     auto written = nlohmann::json::array();
     std::vector<std::string> failures;
     Progress progress(arguments.common, "model", arguments.sources.size() * arguments.expressions.size());
     for (const auto& source : arguments.sources) {
         for (const auto& expression : arguments.expressions) {
             try {
-                const auto model = modeling::model_from_workspace(workspace, catalogue, expression, {source, {}},
-                                                                  arguments.method.model_options());
+                auto model = modeling::model_from_workspace(workspace, catalogue, expression, {source, {}},
+                                                            arguments.method.model_options());
+                model.provenance = provenance;
                 const auto file = folder / source / (model.expression + ".json");
                 modeling::write_expression_model(file, model);
+                for (const auto& scan : model.unusable_scans)
+                    failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression, scan));
                 written.push_back({{"file", file.string()},
                                    {"expression", model.expression},
                                    {"source", source},
@@ -76,7 +81,8 @@ void add_model_command(CLI::App& app, int& exit_code) {
     command->add_option("--expression", arguments->expressions, "AUs and emotions")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("-o,--output", arguments->output, "Folder (default: models/<method> in the workspace)");
+    command->add_option("-o,--output", arguments->output,
+                        "Folder (default: models/<method and switches> in the workspace)");
     arguments->method.add_to(*command);
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

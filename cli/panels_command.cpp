@@ -68,6 +68,7 @@ std::vector<Planned> plan(const Arguments& arguments, const preprocessing::Works
         planned.push_back({request, name});
     }
     if (arguments.series.empty()) return planned;
+    evaluation::check_series(workspace, catalogue, planned.front().request, codes, arguments.series);
     return {{planned.front().request, evaluation::series_name(catalogue, planned.front().request, codes)}};
 }
 
@@ -156,6 +157,7 @@ int run(Arguments& arguments) {
             figures.push_back(
                 to_json(one, arguments.series.empty() ? std::vector{one.request.expression} : codes, picture, figure));
             if (!arguments.common.json) tell(arguments, picture, figure);
+            failures.insert(failures.end(), figure.failures.begin(), figure.failures.end());
         } catch (const std::exception& e) {
             failures.push_back(fmt::format("{}: {}", one.name, e.what()));  // the others may well be drawn
         }

@@ -8,6 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/regions_file.h"
+#include "geometry/errors.h"
+#include "geometry/file.h"
+#include "modeling/average_fingerprint.h"
 #include "modeling/region_labels.h"
 #include "preprocessing/workspace.h"
 
@@ -17,15 +21,22 @@ namespace {
 struct Arguments {
     Common common;
     std::string workspace, output;
+    bool force = false;
 };
 
 int run(const Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
     const auto& average = workspace.average();
     const auto labels = modeling::label_regions(average.grid, average.landmarks);
-    const std::filesystem::path file = arguments.output.empty() ? workspace.root() / "average" / "regions.csv"
-                                                                : std::filesystem::path(arguments.output);
-    modeling::write_region_labels(file, labels);
+    const auto file =
+        arguments.output.empty() ? default_regions_file(workspace) : std::filesystem::path(arguments.output);
+    const auto text = modeling::encode_region_labels(labels, modeling::average_fingerprint(average));
+    if (!arguments.force && std::filesystem::exists(file) && geometry::read_text(file) != text)
+        throw InputError(
+            fmt::format("{}: differs from what would be written; if nobody's work is in it, replace it with --force, "
+                        "else give another file with -o",
+                        file.string()));
+    geometry::write_atomically(file, text);
     std::map<std::string, std::size_t> count;
     for (const auto& label : labels.label)
         if (!label.empty()) ++count[label];
@@ -47,6 +58,7 @@ void add_regions_command(CLI::App& app, int& exit_code) {
     command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command->add_option("-o,--output", arguments->output,
                         "CSV row,col,region (default: average/regions.csv in the workspace)");
+    command->add_flag("--force", arguments->force, "Replace a file that differs: somebody may have edited it");
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

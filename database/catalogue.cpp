@@ -14,6 +14,7 @@
 #include <sqlite3.h>
 #include <sys/stat.h>
 
+#include "geometry/content_hash.h"
 #include "geometry/errors.h"
 #include "geometry/parallel.h"
 
@@ -157,13 +158,6 @@ ScanSummary summary_from_json(const std::string& text) {
     s.remarks = json.at("remarks").get<std::vector<std::string>>();
     s.error = json.at("error").get<std::string>();
     return s;
-}
-
-/// Name of a file from a path: FNV-1a, which is the same on every machine.
-std::uint64_t hash(const std::string& text) {
-    std::uint64_t value = 0xcbf29ce484222325ULL;
-    for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-    return value;
 }
 
 struct Remembered {
@@ -314,7 +308,9 @@ fs::path catalogue_file(const ScanDatabase& database, const CatalogueOptions& op
         else
             return {};
     }
-    return folder / fmt::format("catalogue-{:016x}.sqlite", hash(database.root.string()));
+    geometry::ContentHash hash;
+    hash.add(database.root.string());
+    return folder / fmt::format("catalogue-{}.sqlite", hash.text());
 }
 
 CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntry* const> scans,

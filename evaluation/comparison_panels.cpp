@@ -200,11 +200,7 @@ private:
 /// What makes another picture of the same people by the same method, each in a word: "_r2logr_no-anchors_left_bridged".
 std::string variant_suffix(const ComparisonRequest& request) {
     const auto usual = method_by_name(request.method.name == "thesis" ? "thesis" : "default");
-    std::string suffix;
-    if (request.method.model.kernel != usual.model.kernel)
-        suffix += request.method.model.kernel == geometry::SplineKernel::r ? "_r" : "_r2logr";
-    if (request.method.model.anchors != usual.model.anchors)
-        suffix += request.method.model.anchors ? "_anchors" : "_no-anchors";
+    auto suffix = modeling::variant_suffix(request.method.model, usual.model);
     if (request.view != ComparisonRequest{}.view) suffix += "_" + request.view;
     if (request.bridged == geometry::BridgedVertices::keep) suffix += "_bridged";
     return suffix;
@@ -296,6 +292,11 @@ void add_remarks(std::vector<std::string>& remarks, const std::vector<std::strin
         if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
 }
 
+void add_unusable(ComparisonFigure& figure, const ExpressionModel& model) {
+    for (const auto& scan : model.unusable_scans)
+        figure.failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression, scan));
+}
+
 }  // namespace
 
 double ComparedPerson::explained() const {
@@ -319,12 +320,14 @@ std::string series_name(const FacsCatalogue& catalogue, const ComparisonRequest&
 
 ComparedScans compared_scans(const Workspace& workspace, const FacsCatalogue& catalogue,
                              const ComparisonRequest& request) {
-    workspace.refuse_hidden(request.source);
     workspace.refuse_hidden(request.target);
+    modeling::check_source(workspace, source_of(workspace, request), request.method.model);
     (void)workspace.neutral(request.target);
     (void)catalogue.resolve(request.expression);
     ComparedScans scans;
-    if (request.source != "mean") scans.source = modeling::source_scan(workspace, request.source, request.expression);
+    const auto sources =
+        modeling::source_scans(workspace, catalogue, request.expression, source_of(workspace, request));
+    if (request.source != "mean") scans.source = sources.front();
     scans.target = workspace.expression(request.target, request.expression);
     return scans;
 }
@@ -357,6 +360,7 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
     } else {
         model = modeling::model_from_workspace(workspace, catalogue, request.expression, source_of(workspace, request),
                                                method.model);
+        add_unusable(figure, model);
         Person average("average");
         average.neutral = average_person(workspace);
         for (const auto& point : model.points) average.controls.push_back({point.name, point.kind, point.position_mm});
@@ -402,24 +406,33 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
     return figure;
 }
 
-ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCatalogue& catalogue,
-                                        const ComparisonRequest& request, std::span<const std::string> expressions,
-                                        std::span<const double> magnitudes, const fs::path& folder) {
+void check_series(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
+                  std::span<const std::string> expressions, std::span<const double> magnitudes) {
     if (expressions.empty() || magnitudes.empty())
         throw InputError(fmt::format("a series of {} expressions at {} magnitudes; give one or more of each",
                                      expressions.size(), magnitudes.size()));
     auto each = request;
     std::set<std::string> meshes;
     for (const auto& expression : expressions) {
-        for (const double magnitude : magnitudes)
+        for (const double magnitude : magnitudes) {
+            if (!std::isfinite(magnitude) || magnitude < 0)
+                throw InputError(
+                    fmt::format("magnitude {} of the series: give numbers of 0 (neutral) or more", magnitude));
             if (!meshes.insert(series_mesh(modeling::expression_name(catalogue, expression), magnitude)).second)
                 throw InputError(
                     fmt::format("expression '{}' at magnitude {} stands twice in the series, or as near "
                                 "as makes no difference; give each once",
                                 expression, magnitude));
+        }
         each.expression = expression;
         (void)compared_scans(workspace, catalogue, each);
     }
+}
+
+ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCatalogue& catalogue,
+                                        const ComparisonRequest& request, std::span<const std::string> expressions,
+                                        std::span<const double> magnitudes, const fs::path& folder) {
+    check_series(workspace, catalogue, request, expressions, magnitudes);
     ComparisonFigure figure;
     const auto neutral = workspace.face(workspace.neutral(request.target));
     const auto face = target_face(neutral, request.method);
@@ -431,6 +444,7 @@ ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCa
                                                           source_of(workspace, request), request.method.model);
         words.push_back(expression_words(catalogue, expression));
         add_remarks(figure.remarks, model.left_out);
+        add_unusable(figure, model);
         for (const double magnitude : magnitudes) {
             const auto animated = animated_face(face, model, request.method, magnitude);
             add_remarks(figure.remarks, animated.remarks);

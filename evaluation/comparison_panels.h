@@ -38,6 +38,7 @@ struct ComparisonFigure {
     std::vector<ComparedPerson> people;  ///< those with a real expressive scan: source, then target
     double scale_mm = 0.0;               ///< upper end of the colours; 0: nothing is coloured
     std::vector<std::string> remarks;    ///< what is left out, and why
+    std::vector<std::string> failures;   ///< scans that should have gone into a mean and could not
 };
 
 /// File name without extension: "AU12_bs003_on_bs007_default"; a magnitude other than 1 as "AU12_m0.5_...";
@@ -50,7 +51,8 @@ struct ComparisonFigure {
 
 /// Everything that can be found out about a request before any work. Gives the scan that the expression is taken from
 /// (none for a mean) and the target's real one (none if the target was not scanned with it).
-/// @throws InputError if a subject is missing or must not be shown, or the source lacks the expression.
+/// @throws InputError if a subject is missing or must not be shown, the source (of a mean: everybody) lacks the
+/// expression, or the method has no mean.
 struct ComparedScans {
     std::optional<database::ScanId> source, target;
 };
@@ -70,10 +72,16 @@ struct ComparedScans {
                                                        const ComparisonRequest& request,
                                                        const std::filesystem::path& folder);
 
+/// What write_magnitude_series finds out before any work. @throws as compared_scans; InputError if there is no
+/// expression or magnitude, one is negative or no number, or one stands twice (to the six digits that its file name
+/// has).
+void check_series(const preprocessing::Workspace& workspace, const modeling::FacsCatalogue& catalogue,
+                  const ComparisonRequest& request, std::span<const std::string> expressions,
+                  std::span<const double> magnitudes);
+
 /// Fig. 5-12: the target with each expression (a row) at each magnitude (a column), one frame and centre for all.
 /// `request.expression` and the method's magnitude are not used.
-/// @throws as write_comparison_panels; InputError if there is no expression or magnitude, one is negative, or one
-/// stands twice (to the six digits that its file name has).
+/// @throws as write_comparison_panels and check_series.
 [[nodiscard]] ComparisonFigure write_magnitude_series(const preprocessing::Workspace& workspace,
                                                       const modeling::FacsCatalogue& catalogue,
                                                       const ComparisonRequest& request,

@@ -103,6 +103,7 @@ public:
         : workspace_(workspace), catalogue_(catalogue), options_(options), progress_(progress), reader_(workspace) {
         report_.subjects = shown_subjects(workspace);
         report_.expressions = options.expressions;
+        report_.whole_face = options.whole_face;
         report_.zones = reader_.has_truth() ? "truth" : "catalogue";
         report_.alignment = reader_.has_truth() ? "true pose" : "ICP on the stable region";
         for (const auto& method : options.methods) add_row(method.name, method.kind, false);

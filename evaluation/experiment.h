@@ -36,8 +36,9 @@ struct MethodScores {
 struct ExperimentReport {
     std::vector<std::string> subjects;
     std::vector<std::string> expressions;
-    std::string zones;      ///< "truth" or "catalogue"
-    std::string alignment;  ///< "true pose" or "ICP on the stable region"
+    bool whole_face = true;  ///< whether the whole face was scored
+    std::string zones;       ///< "truth" or "catalogue"
+    std::string alignment;   ///< "true pose" or "ICP on the stable region"
     std::vector<MethodScores> rows;
     std::vector<std::string> failures;  ///< what gave no answer, with the reason
     double seconds = 0.0;

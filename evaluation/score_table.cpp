@@ -50,8 +50,9 @@ std::string to_markdown(const ExperimentReport& report) {
             text += fmt::format(" {:.2f} |", row.per_expression.at(expression).explained);
         const auto total = pooled(row);
         text +=
-            fmt::format(" **{:.3f}** | {:.3f} | {} | {:.2f} | {:.1f} % of {} |\n", row.explained, row.explained_median,
-                        row.share ? fmt::format("{:.2f}", *row.share) : "", row.explained_whole,
+            fmt::format(" **{:.3f}** | {:.3f} | {} | {} | {:.1f} % of {} |\n", row.explained, row.explained_median,
+                        row.share ? fmt::format("{:.2f}", *row.share) : "",
+                        report.whole_face ? fmt::format("{:.2f}", row.explained_whole) : "",
                         total.cases ? 100.0 * static_cast<double>(total.worse) / static_cast<double>(total.cases) : 0.0,
                         total.cases);
     }
@@ -95,23 +96,24 @@ std::string to_csv(const ExperimentReport& report) {
     for (const auto& row : report.rows)
         for (const auto& expression : report.expressions) {
             const auto& s = row.per_expression.at(expression);
-            text += fmt::format("\"{}\",{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{},{},{}\n",
-                                row.method, kind_name(row.kind), row.reference ? 1 : 0, expression, s.explained,
-                                s.explained_median, s.explained_whole, s.error_mm, s.nothing_mm,
-                                optional_number(s.true_error_mm), optional_number(s.nothing_true_mm), s.largest_step_mm,
-                                s.cases, s.worse_than_nothing, s.left_out_vertices);
+            text += fmt::format("\"{}\",{},{},{},{:.6f},{:.6f},{},{:.6f},{:.6f},{},{},{:.6f},{},{},{}\n", row.method,
+                                kind_name(row.kind), row.reference ? 1 : 0, expression, s.explained, s.explained_median,
+                                report.whole_face ? fmt::format("{:.6f}", s.explained_whole) : "", s.error_mm,
+                                s.nothing_mm, optional_number(s.true_error_mm), optional_number(s.nothing_true_mm),
+                                s.largest_step_mm, s.cases, s.worse_than_nothing, s.left_out_vertices);
         }
     return text;
 }
 
 std::string to_json(const ExperimentReport& report) {
+    const auto whole = [&](double value) { return report.whole_face ? nlohmann::json(value) : nlohmann::json(); };
     auto rows = nlohmann::json::array();
     for (const auto& row : report.rows) {
         nlohmann::json scores;
         for (const auto& [expression, s] : row.per_expression) {
             scores[expression] = {{"explained", s.explained},
                                   {"explained_median", s.explained_median},
-                                  {"explained_whole_face", s.explained_whole},
+                                  {"explained_whole_face", whole(s.explained_whole)},
                                   {"error_mm", s.error_mm},
                                   {"nothing_mm", s.nothing_mm},
                                   {"largest_step_mm", s.largest_step_mm},
@@ -127,7 +129,7 @@ std::string to_json(const ExperimentReport& report) {
                         {"reference", row.reference},
                         {"explained", row.explained},
                         {"explained_median", row.explained_median},
-                        {"explained_whole_face", row.explained_whole},
+                        {"explained_whole_face", whole(row.explained_whole)},
                         {"share", row.share ? nlohmann::json(*row.share) : nlohmann::json()},
                         {"expressions", scores}});
     }

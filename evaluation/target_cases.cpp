@@ -137,7 +137,7 @@ private:
             const auto animated = animation::animate(prepared(method), std::span(&weighted, 1), method.animation);
             auto result =
                 judge_case(target_, animated.grid.vertices_mm, animated.displacement_mm, grid(), choice_.whole_face);
-            result.step_mm = animated.largest_neighbour_step_mm;
+            result.step_mm = animated.extent.largest_neighbour_step_mm;
             return result;
         } catch (const std::exception& e) {
             failures_.add(fmt::format("{}: {} -> {} by {}: {}", cast_.expression, from, name_, method.name, e.what()));

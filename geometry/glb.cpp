@@ -119,10 +119,19 @@ private:
     std::string bytes_;
 };
 
+/// GLB has 32-bit floats: what is a number of 64 bits need not be one there.
+template <class Vectorlike>
+bool finite_as_float(const Vectorlike& v) {
+    return v.template cast<float>().allFinite();
+}
+
 void check(const GlbMesh& mesh) {
     const auto n = mesh.positions_mm.size();
     const auto refuse = [&](const std::string& what) {
         throw InputError(fmt::format("GLB mesh '{}': {}", mesh.name, what));
+    };
+    const auto not_finite = [&](const std::string& what) {
+        throw NumericalError(fmt::format("GLB mesh '{}': {} is not a finite 32-bit number", mesh.name, what));
     };
     if (mesh.triangles.empty()) refuse("there is no triangle");
     if (!mesh.normals.empty() && mesh.normals.size() != n)
@@ -134,10 +143,10 @@ void check(const GlbMesh& mesh) {
     for (const auto& t : mesh.triangles)
         for (const auto corner : t) {
             if (corner >= n) refuse(fmt::format("a triangle names vertex {} of {}", corner, n));
-            if (!mesh.positions_mm[corner].allFinite())
-                refuse(fmt::format("vertex {} is not a finite position", corner));
-            if (!mesh.texture_coordinates.empty() && !mesh.texture_coordinates[corner].allFinite())
-                refuse(fmt::format("texture position of vertex {} is not finite", corner));
+            if (!finite_as_float(mesh.positions_mm[corner]))
+                not_finite(fmt::format("the position of vertex {}", corner));
+            if (!mesh.texture_coordinates.empty() && !finite_as_float(mesh.texture_coordinates[corner]))
+                not_finite(fmt::format("the texture position of vertex {}", corner));
         }
     if (!mesh.texture_png.empty()) {
         if (mesh.texture_coordinates.empty()) refuse("there is a texture but no texture positions");
@@ -147,14 +156,15 @@ void check(const GlbMesh& mesh) {
             refuse("the texture is not a PNG file");
     }
     for (const auto& target : mesh.morph_targets) {
+        if (!std::isfinite(static_cast<float>(target.weight)))
+            not_finite(fmt::format("morph target '{}': weight {}", target.name, target.weight));
         if (target.displacement_mm.size() != n)
             refuse(fmt::format("morph target '{}' has {} displacements for {} vertices", target.name,
                                target.displacement_mm.size(), n));
         for (const auto& t : mesh.triangles)
             for (const auto corner : t)
-                if (!target.displacement_mm[corner].allFinite())
-                    refuse(fmt::format("morph target '{}': the displacement of vertex {} is not finite", target.name,
-                                       corner));
+                if (!finite_as_float(target.displacement_mm[corner]))
+                    not_finite(fmt::format("morph target '{}': the displacement of vertex {}", target.name, corner));
     }
 }
 
@@ -308,6 +318,8 @@ void write_glb(const std::filesystem::path& file, const GlbScene& scene) {
         bytes = encode_glb(scene);
     } catch (const InputError& e) {
         throw InputError(fmt::format("{}: not written: {}", file.string(), e.what()));
+    } catch (const NumericalError& e) {
+        throw NumericalError(fmt::format("{}: not written: {}", file.string(), e.what()));
     }
     write_atomically(file, formats::as_text(bytes));
 }

@@ -40,7 +40,7 @@ struct GlbScene {
 /// glTF 2.0, binary: metres, v counted downward, 32-bit floats. Vertices that no triangle uses are left out (so bridged
 /// or outside vertices may hold NaN). Morph targets carry the change of the normals too; mesh.extras.targetNames names
 /// them; if ARKit has any of them, mesh.extras.arkitNames has its names in the same order, "" where there is none.
-/// @throws InputError naming the mesh and the part that does not fit or is not finite.
+/// @throws InputError naming the mesh and the part that does not fit; NumericalError for what is not finite in 32 bits.
 [[nodiscard]] std::vector<std::uint8_t> encode_glb(const GlbScene& scene);
 void write_glb(const std::filesystem::path& file, const GlbScene& scene);
 

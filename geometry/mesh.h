@@ -37,7 +37,7 @@ struct Mesh {
     Faces faces;
     std::vector<TextureCoordinate> texture_coordinates;  ///< empty, or one per vertex, or as `texture_corners` says
     std::vector<std::array<std::uint8_t, 3>> colours;    ///< empty, or RGB per vertex
-    std::vector<VertexAttribute> attributes;
+    std::vector<VertexAttribute> attributes;             ///< each name once: readers take the first of two
 };
 
 using Triangle = std::array<std::uint32_t, 3>;

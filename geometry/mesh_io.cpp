@@ -12,6 +12,7 @@
 #include "geometry/formats/stl.h"
 #include "geometry/formats/vtp.h"
 #include "geometry/text.h"
+#include "geometry/texture_path.h"
 
 namespace mimik::geometry {
 namespace {
@@ -81,6 +82,10 @@ void check_parts_fit(const Mesh& mesh, const std::string& name) {
     for (const auto corner : faces.texture_corners)
         if (corner >= mesh.texture_coordinates.size())
             refuse(fmt::format("a face names texture position {} of {}", corner, mesh.texture_coordinates.size()));
+    for (std::size_t k = 0; k < mesh.attributes.size(); ++k)
+        for (std::size_t other = 0; other < k; ++other)
+            if (mesh.attributes[k].name == mesh.attributes[other].name)
+                refuse(fmt::format("two attributes are called {}; leave one out", in_quotes(mesh.attributes[k].name)));
     for (const auto& attribute : mesh.attributes)
         if (attribute.components < 1 || attribute.values.size() != n * static_cast<std::size_t>(attribute.components))
             refuse(fmt::format("attribute {} has {} values for {} vertices of {} components", in_quotes(attribute.name),
@@ -122,17 +127,13 @@ MeshFormat mesh_format(const std::filesystem::path& file) {
 }
 
 std::string checked_texture_name(const std::string& texture, const std::string& file) {
-    std::string_view bare = texture;
-    while (bare.starts_with("./")) bare.remove_prefix(2);
-    const bool control =
-        std::any_of(bare.begin(), bare.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-    if (bare.find_first_of("/\\:") != std::string_view::npos || bare == "." || bare == ".." || control ||
-        bare.size() > 255)
+    auto name = checked_texture_path(texture, file);
+    if (name.find('/') != std::string::npos)
         throw InputError(
-            fmt::format("{}: texture name is {}; it must be a bare file name: put the image beside the mesh and "
-                        "name it without a folder",
+            fmt::format("{}: texture name is {}; it must be a bare file name: put the image beside the "
+                        "mesh and name it without a folder",
                         file, in_quotes(texture)));
-    return std::string(bare);
+    return name;
 }
 
 MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name, LengthUnit unit) {
@@ -171,16 +172,18 @@ MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit) {
     const auto format = mesh_format(file);
     auto content = decode_mesh(format, read_bytes(file), file.string(), unit);
     if (format == MeshFormat::obj && !content.texture_file.empty()) {
-        const auto material = file.parent_path() / checked_texture_name(content.texture_file, file.string());
+        const std::filesystem::path named = checked_texture_path(content.texture_file, file.string());
+        const auto material = file.parent_path() / named;
         // A missing material file takes the texture away, not the mesh.
         content.texture_file =
             std::filesystem::exists(material)
                 ? formats::texture_of_material(read_text(material, std::uintmax_t{1} << 24), material.string())
                 : std::string();
         if (!content.texture_file.empty())
-            content.texture_file = checked_texture_name(content.texture_file, material.string());
+            content.texture_file =
+                (named.parent_path() / checked_texture_path(content.texture_file, material.string())).generic_string();
     } else if (!content.texture_file.empty()) {
-        content.texture_file = checked_texture_name(content.texture_file, file.string());
+        content.texture_file = checked_texture_path(content.texture_file, file.string());
     }
     return content;
 }

@@ -29,7 +29,7 @@ enum class MeshFormat { ply, obj, stl, pcd, vtp };
 /// What a file holds beside the surface.
 struct MeshFile {
     Mesh mesh;
-    std::string texture_file;  ///< image beside the mesh, a bare file name; empty: none
+    std::string texture_file;  ///< image in the mesh's folder or below it ("tex/skin.png"); empty: none
     int rows = 0;  ///< of a PCD with HEIGHT > 1, in the file's order; its NaN points are then still in `mesh`
     int cols = 0;
 };

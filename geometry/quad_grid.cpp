@@ -34,15 +34,17 @@ Mesh to_mesh(const QuadGrid& grid, BridgedVertices bridged, std::vector<std::uin
     Mesh mesh;
     VertexAttribute origin{"origin", 1, {}};
     std::vector<std::uint32_t> kept, place(grid.size(), std::numeric_limits<std::uint32_t>::max());
+    mesh.faces = quads(grid, bridged);
+    std::vector<char> used(grid.size(), 0);
+    for (const auto corner : mesh.faces.corners) used[corner] = 1;
     for (std::uint32_t v = 0; v < grid.size(); ++v) {
-        if (!usable(grid, v, bridged)) continue;
+        if (!used[v]) continue;
         place[v] = static_cast<std::uint32_t>(kept.size());
         kept.push_back(v);
         mesh.vertices_mm.push_back(grid.vertices_mm[v]);
         origin.values.push_back(static_cast<double>(grid.origin[v]));
         if (!grid.texture_coordinates.empty()) mesh.texture_coordinates.push_back(grid.texture_coordinates[v]);
     }
-    mesh.faces = quads(grid, bridged);
     for (auto& corner : mesh.faces.corners) corner = place[corner];
     mesh.attributes.push_back(std::move(origin));
     if (kept_vertices) *kept_vertices = std::move(kept);

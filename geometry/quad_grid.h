@@ -38,8 +38,8 @@ enum class BridgedVertices { keep, leave_out };
 /// The same quads, each split along its diagonal from (row, col) to (row + 1, col + 1).
 [[nodiscard]] std::vector<Triangle> triangles(const QuadGrid& grid, BridgedVertices bridged = BridgedVertices::keep);
 
-/// The vertices that quads() may use, in grid order, and those quads: texture coordinates and the attribute `origin` (1
-/// measured, 2 bridged) go along.
+/// The quads of quads() and the vertices that they use, in grid order (one that no quad uses is no surface): texture
+/// coordinates and the attribute `origin` (1 measured, 2 bridged) go along.
 /// @param kept_vertices  grid index of every vertex of the mesh
 [[nodiscard]] Mesh to_mesh(const QuadGrid& grid, BridgedVertices bridged = BridgedVertices::keep,
                            std::vector<std::uint32_t>* kept_vertices = nullptr);

@@ -17,7 +17,7 @@ struct RangeScan {
         points_mm;  ///< [row * cols + col], NaN where the scanner measured nothing; or any order if 0 x 0
     std::vector<TextureCoordinate> texture_coordinates;  ///< empty, or one per point
     Faces faces;                                         ///< only where a mesh file gave them
-    std::string texture_file;                            ///< file name beside the scan, no folder; empty: no texture
+    std::string texture_file;                            ///< in the scan's folder or below it; empty: no texture
 
     [[nodiscard]] bool organised() const { return rows > 0; }
     [[nodiscard]] bool valid(std::size_t index) const { return std::isfinite(points_mm[index].x()); }

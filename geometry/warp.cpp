@@ -55,17 +55,25 @@ WarpInput read_input(const std::filesystem::path& input) {
     return result;
 }
 
-void copy_texture(const std::string& texture, const std::filesystem::path& from, const std::filesystem::path& to) {
-    if (texture.empty() || !std::filesystem::exists(from / texture) || std::filesystem::exists(to / texture)) return;
-    const auto image = read_text(from / texture);
-    write_atomically(to / texture, image);
+/// The image as one that belongs to the output, so that no other of its name is taken for it. @return its name; empty
+/// if there is no image.
+std::string copy_texture(const std::string& texture, const std::filesystem::path& folder,
+                         const std::filesystem::path& output) {
+    if (texture.empty() || !std::filesystem::exists(folder / texture)) return {};
+    const auto image = read_text(folder / texture);
+    const auto extension = std::filesystem::path(texture).extension().string();
+    const auto copy = output.parent_path() / (output.stem().string() + "_texture" + extension);
+    write_atomically(copy, image);
+    return copy.filename().string();
 }
 
 void write_output(const std::filesystem::path& output, WarpInput warp, const std::filesystem::path& input) {
     auto& mesh = warp.file.mesh;
     if (!is_csv(output)) {
-        write_mesh(output, mesh, {.texture_file = warp.file.texture_file});
-        copy_texture(warp.file.texture_file, input.parent_path(), output.parent_path());
+        MeshWriteOptions options;
+        if (const auto format = mesh_format(output); format == MeshFormat::ply || format == MeshFormat::obj)
+            options.texture_file = copy_texture(warp.file.texture_file, input.parent_path(), output);
+        write_mesh(output, mesh, options);
         return;
     }
     if (warp.names.empty()) {
@@ -135,9 +143,16 @@ WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::p
                                                     (spline(mark.position_mm) - target.position_mm(mark.name)).norm());
     const auto before = points;
     warp.file.mesh = warped(std::move(warp.file.mesh), spline);
-    for (std::size_t i = 0; i < before.size(); ++i)
-        report.largest_displacement =
-            std::max(report.largest_displacement, (warp.file.mesh.vertices_mm[i] - before[i]).norm());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const double moved = (warp.file.mesh.vertices_mm[i] - before[i]).norm();
+        if (!std::isfinite(moved))
+            throw NumericalError(
+                fmt::format("{}: point {} at ({}, {}, {}) is so far from the landmarks that its place has no number; "
+                            "give it in the unit and frame of the landmarks",
+                            input.string(), warp.names.empty() ? std::to_string(i) : in_quotes(warp.names[i]),
+                            before[i].x(), before[i].y(), before[i].z()));
+        report.largest_displacement = std::max(report.largest_displacement, moved);
+    }
     write_output(output, std::move(warp), input);
     return report;
 }

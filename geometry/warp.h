@@ -37,10 +37,10 @@ struct WarpReport {
 };
 
 /// Warps a file: points as CSV (name,x,y,z) or a mesh (PLY, OBJ, STL, PCD, VTP), by extension, to a file of the same or
-/// another of these formats (not PCD). CSV keeps the names; points of a mesh get their number, from 0, as name. A
-/// texture image is copied along where the output goes to another folder.
+/// another of these formats (not PCD). CSV keeps the names; points of a mesh get their number, from 0, as name. The
+/// texture image of face.ply or face.obj is copied beside it as face_texture.png.
 /// @param from, to  landmark files in any form that read_landmarks knows, their coordinates taken as written.
-/// @throws InputError, NumericalError.
+/// @throws InputError; NumericalError also where the place of a point is not finite.
 WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::path& to,
                      const std::filesystem::path& input, const std::filesystem::path& output,
                      const WarpOptions& options = {});

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -246,6 +248,95 @@ ExpressionModel mean_expression(std::span<const ExpressionModel> models) {
     return mean.mean();
 }
 
+std::string variant_suffix(const ModelOptions& options, const ModelOptions& usual) {
+    std::string suffix;
+    if (options.kernel != usual.kernel) suffix += options.kernel == geometry::SplineKernel::r ? "_r" : "_r2logr";
+    if (options.anchors != usual.anchors) suffix += options.anchors ? "_anchors" : "_no-anchors";
+    return suffix;
+}
+
+namespace {
+
+constexpr const char* model_file_kind = "mimik expression model";
+
+const char* kernel_name(geometry::SplineKernel kernel) { return kernel == geometry::SplineKernel::r ? "r" : "r2logr"; }
+
+nlohmann::json provenance_to_json(const ModelProvenance& provenance) {
+    const auto& options = provenance.options;
+    return {{"mimik", provenance.mimik_version},
+            {"method", provenance.method},
+            {"frame", options.frame == Frame::affine ? "affine" : "similarity"},
+            {"kernel", kernel_name(options.kernel)},
+            {"smoothing", options.smoothing},
+            {"anchors", options.anchors},
+            {"wrinkle_points", options.wrinkle_points},
+            {"coverage_points", options.coverage_points},
+            {"snap_to_vertices", options.snap_to_vertices},
+            {"place_on_average", options.place_on_average},
+            {"catalogue", {{"name", provenance.catalogue}, {"hash", provenance.catalogue_hash}}},
+            {"average_face", provenance.average_face}};
+}
+
+ModelProvenance provenance_from_json(const nlohmann::json& json) {
+    ModelProvenance provenance;
+    provenance.mimik_version = json.at("mimik").get<std::string>();
+    provenance.method = json.at("method").get<std::string>();
+    auto& options = provenance.options;
+    options.frame = json.at("frame").get<std::string>() == "affine" ? Frame::affine : Frame::similarity;
+    options.kernel =
+        json.at("kernel").get<std::string>() == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
+    options.smoothing = json.at("smoothing").get<double>();
+    options.anchors = json.at("anchors").get<bool>();
+    options.wrinkle_points = json.at("wrinkle_points").get<bool>();
+    options.coverage_points = json.at("coverage_points").get<bool>();
+    options.snap_to_vertices = json.at("snap_to_vertices").get<bool>();
+    options.place_on_average = json.at("place_on_average").get<bool>();
+    provenance.catalogue = json.at("catalogue").at("name").get<std::string>();
+    provenance.catalogue_hash = json.at("catalogue").at("hash").get<std::string>();
+    provenance.average_face = json.at("average_face").get<std::string>();
+    return provenance;
+}
+
+}  // namespace
+
+std::vector<std::string> differences(const ModelProvenance& stored, const ModelProvenance& here) {
+    std::vector<std::string> found;
+    const auto compare = [&](const char* what, const auto& a, const auto& b) {
+        if (a != b) found.push_back(fmt::format("{} {}, here {}", what, a, b));
+    };
+    const auto compare_switch = [&](const char* what, bool a, bool b) {
+        if (a != b) found.push_back(fmt::format("{} {}, here {}", what, a ? "on" : "off", b ? "on" : "off"));
+    };
+    compare("kernel", std::string(kernel_name(stored.options.kernel)), std::string(kernel_name(here.options.kernel)));
+    compare("smoothing", stored.options.smoothing, here.options.smoothing);
+    compare_switch("anchors", stored.options.anchors, here.options.anchors);
+    compare_switch("wrinkle points", stored.options.wrinkle_points, here.options.wrinkle_points);
+    compare_switch("coverage points", stored.options.coverage_points, here.options.coverage_points);
+    compare_switch("snapping to vertices", stored.options.snap_to_vertices, here.options.snap_to_vertices);
+    compare_switch("placing on the average face", stored.options.place_on_average, here.options.place_on_average);
+    if (stored.catalogue_hash != here.catalogue_hash)
+        found.push_back(fmt::format("catalogue {} ({}), here {} ({})", stored.catalogue, stored.catalogue_hash,
+                                    here.catalogue, here.catalogue_hash));
+    compare("average face", stored.average_face, here.average_face);
+    return found;
+}
+
+void check_expression_model(const ExpressionModel& model) {
+    if (model.points.empty()) throw InputError("there is no point in it; make the model again with 'mimik model'");
+    if (!(std::isfinite(model.mouth_width_mm) && model.mouth_width_mm > 0))
+        throw InputError(fmt::format("mouth_width_mm is {}; it must be above 0", model.mouth_width_mm));
+    for (const auto& mark : model.landmarks.all())
+        if (!mark.position_mm.allFinite())
+            throw InputError(fmt::format("landmark '{}' is at no finite position", mark.name));
+    std::set<std::string_view> names;
+    for (const auto& point : model.points) {
+        if (!names.insert(point.name).second)
+            throw InputError(fmt::format("point '{}' stands in it twice; leave one out", point.name));
+        if (!point.position_mm.allFinite() || !point.displacement_mm.allFinite())
+            throw InputError(fmt::format("position or displacement of point '{}' is not finite", point.name));
+    }
+}
+
 void write_expression_model(const std::filesystem::path& file, const ExpressionModel& model) {
     using preprocessing::to_json;
     auto points = nlohmann::json::array();
@@ -255,24 +346,28 @@ void write_expression_model(const std::filesystem::path& file, const ExpressionM
                           {"position_mm", to_json(point.position_mm)},
                           {"displacement_mm", to_json(point.displacement_mm)},
                           {"projection_mm", point.projection_mm}});
-    const nlohmann::json document = {{"schema", 1},
-                                     {"kind", "mimik expression model"},
-                                     {"expression", model.expression},
-                                     {"moves_upper_face", model.moves_upper_face},
-                                     {"moves_lower_face", model.moves_lower_face},
-                                     {"frame", model.frame == Frame::affine ? "affine" : "similarity"},
-                                     {"units", "mm"},
-                                     {"sources", model.sources},
-                                     {"mouth_width_mm", model.mouth_width_mm},
-                                     {"landmarks", to_json(model.landmarks)},
-                                     {"points", points},
-                                     {"left_out", model.left_out}};
+    nlohmann::json document = {{"schema", 1},
+                               {"kind", model_file_kind},
+                               {"expression", model.expression},
+                               {"moves_upper_face", model.moves_upper_face},
+                               {"moves_lower_face", model.moves_lower_face},
+                               {"frame", model.frame == Frame::affine ? "affine" : "similarity"},
+                               {"units", "mm"},
+                               {"sources", model.sources},
+                               {"mouth_width_mm", model.mouth_width_mm},
+                               {"landmarks", to_json(model.landmarks)},
+                               {"points", points},
+                               {"left_out", model.left_out},
+                               {"unusable_scans", model.unusable_scans}};
+    if (model.provenance) document["provenance"] = provenance_to_json(*model.provenance);
     geometry::write_atomically(file, preprocessing::json_text(document));
 }
 
 ExpressionModel read_expression_model(const std::filesystem::path& file) {
     return preprocessing::from_json_file<ExpressionModel>(file, [&](const nlohmann::json& document) {
         ExpressionModel model;
+        if (const auto kind = document.at("kind").get<std::string>(); kind != model_file_kind)
+            throw InputError(fmt::format("it is '{}', not '{}'; give a file of 'mimik model'", kind, model_file_kind));
         model.expression = document.at("expression").get<std::string>();
         model.moves_upper_face = document.at("moves_upper_face").get<bool>();
         model.moves_lower_face = document.at("moves_lower_face").get<bool>();
@@ -290,6 +385,11 @@ ExpressionModel read_expression_model(const std::filesystem::path& file) {
                                     preprocessing::vector_from_json(point.at("displacement_mm")),
                                     point.at("projection_mm").get<double>()});
         model.left_out = document.at("left_out").get<std::vector<std::string>>();
+        // Older files have neither.
+        if (document.contains("unusable_scans"))
+            model.unusable_scans = document.at("unusable_scans").get<std::vector<std::string>>();
+        if (document.contains("provenance")) model.provenance = provenance_from_json(document.at("provenance"));
+        check_expression_model(model);
         return model;
     });
 }

@@ -41,6 +41,21 @@ struct ModelOptions {
     void check() const;
 };
 
+/// What makes a model another than `usual` would: "_r2logr_no-anchors", for the names of its file and of its pictures.
+[[nodiscard]] std::string variant_suffix(const ModelOptions& options, const ModelOptions& usual);
+
+/// How a stored model came about.
+struct ModelProvenance {
+    std::string mimik_version;
+    std::string method;  ///< "default" or "thesis": what the options began as
+    ModelOptions options;
+    std::string catalogue, catalogue_hash;  ///< FacsCatalogue::name and content_hash
+    std::string average_face;               ///< average_fingerprint
+    [[nodiscard]] bool operator==(const ModelProvenance&) const = default;
+};
+/// What differs, apart from version and method's name: "kernel r2logr, here r". Empty: nothing.
+[[nodiscard]] std::vector<std::string> differences(const ModelProvenance& stored, const ModelProvenance& here);
+
 /// One control point of a model: where it is on the model's own neutral face, and where the expression takes it.
 struct ModelPoint {
     std::string name;
@@ -57,11 +72,13 @@ struct ExpressionModel {
     bool moves_upper_face = false;
     bool moves_lower_face = true;
     Frame frame = Frame::similarity;
-    std::vector<std::string> sources;   ///< scans that went in, neutral and expressive in turn
-    geometry::Landmarks landmarks;      ///< of the model's neutral face, same frame as the points
-    double mouth_width_mm = 0.0;        ///< between the mouth corners of that neutral face, same frame
-    std::vector<ModelPoint> points;     ///< controls, then anchors
-    std::vector<std::string> left_out;  ///< points that could not be placed or measured, with the reason
+    std::vector<std::string> sources;           ///< scans that went in, neutral and expressive in turn
+    geometry::Landmarks landmarks;              ///< of the model's neutral face, same frame as the points
+    double mouth_width_mm = 0.0;                ///< between the mouth corners of that neutral face, same frame
+    std::vector<ModelPoint> points;             ///< controls, then anchors
+    std::vector<std::string> left_out;          ///< points that could not be placed or measured, with the reason
+    std::vector<std::string> unusable_scans;    ///< of a mean: scans that should have gone in and could not, and why
+    std::optional<ModelProvenance> provenance;  ///< of a stored one; older files have none
 
     [[nodiscard]] double largest_displacement_mm() const;
 };
@@ -119,6 +136,10 @@ private:
     std::vector<double> count_;                 // per point
 };
 [[nodiscard]] ExpressionModel mean_expression(std::span<const ExpressionModel> models);
+
+/// @throws InputError if it is none that can be animated: no point, a name twice, a width of 0, a number that is not
+/// finite.
+void check_expression_model(const ExpressionModel& model);
 
 /// JSON, schema 1: readable, 17 digits.
 void write_expression_model(const std::filesystem::path& file, const ExpressionModel& model);

@@ -12,9 +12,12 @@
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
+#include "geometry/content_hash.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/landmarks.h"
+#include "geometry/text.h"
+#include "modeling/arkit_shapes.h"
 #include "modeling/control_points.h"
 #include "modeling/reference_face.h"
 
@@ -101,11 +104,30 @@ public:
             place.at.emplace_back(std::string(key.str()), number(weight, std::string(key.str())));
             sum += place.at.back().second;
         }
+        check_sides(*at, place);
         if (std::abs(sum - 1.0) > 1e-6) error(*at, fmt::format("weights add up to {}, not 1", sum));
         std::tie(place.lateral, place.up) = two(table, "offset", false);
         if (std::hypot(place.lateral, place.up) > 1.5)
             error(table, "offset of more than 1.5 outer-eye distances is off the face");
         return place;
+    }
+    /// Places are written for the left side and mirrored: a landmark of one side would stay where it is.
+    void check_sides(const toml::table& at, const Placement& place) {
+        const auto weight_of = [&](const std::string& name) {
+            for (const auto& [other, weight] : place.at)
+                if (other == name) return weight;
+            return 0.0;
+        };
+        for (const auto& [name, weight] : place.at)
+            for (const auto& [side, other] : {std::pair("_left", "_right"), std::pair("_right", "_left")}) {
+                if (!name.ends_with(side)) continue;
+                const auto bare = name.substr(0, name.size() - std::string_view(side).size());
+                if (weight_of(bare + other) != weight)
+                    error(*at.get(name),
+                          fmt::format("'{}' has no mirror image: write '{}', or '{}_left' and '{}_right' with equal "
+                                      "weights for the point between them",
+                                      name, bare, bare, bare));
+            }
     }
     template <typename Visit>
     void tables(const toml::table& parent, const char* key, bool required, const Visit& visit) {
@@ -151,12 +173,7 @@ void check_place(Reader& reader, const toml::table& entry, const CataloguePoint&
             fmt::format("point '{}' lies off the reference face, {:.0f} mm to the left of and {:.0f} mm above the "
                         "nose tip; make its offset smaller",
                         point.name, p.x(), p.y()));
-    if (central && std::abs(p.x()) > 1.0)
-        reader.error(entry,
-                     fmt::format("point '{}' is off the midline but names the side of its landmarks; leave '_left' and "
-                                 "'_right' out, so that it has a mirror image",
-                                 point.name));
-    else if (!central && std::abs(p.x()) < 1.0)
+    if (!central && std::abs(p.x()) < 1.0)
         reader.error(entry,
                      fmt::format("point '{}' and its mirror image fall together on the midline; write it with midline "
                                  "landmarks and no lateral offset",
@@ -199,9 +216,23 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
     if (unit.central && !unit.arkit.empty())
         reader.error(table, fmt::format("AU{} is central and has no halves to name: use arkit_whole in place of arkit",
                                         unit.number));
-    reader.tables(table, "muscles", true, [&](const toml::table& muscle) {
-        reader.only_keys(muscle, {"name", "source"});
-        unit.muscles.push_back({reader.text(muscle, "name"), reader.text(muscle, "source")});
+    for (const auto& [key, shape] : {std::pair("arkit", unit.arkit), std::pair("arkit_whole", unit.arkit_whole)}) {
+        const bool half = std::string_view(key) == "arkit";
+        if (shape.empty() ||
+            (half ? is_arkit_shape(shape + "Left") && is_arkit_shape(shape + "Right") : is_arkit_shape(shape)))
+            continue;
+        reader.error(*table.get(key), half
+                                          ? fmt::format("ARKit has no blendshapes '{}Left' and '{}Right'", shape, shape)
+                                          : fmt::format("ARKit has no blendshape '{}'", shape));
+    }
+    reader.tables(table, "muscles", true, [&](const toml::table& entry) {
+        reader.only_keys(entry, {"name", "source", "reference"});
+        Muscle muscle{reader.text(entry, "name"), reader.text(entry, "source"), reader.text(entry, "reference")};
+        if (entry.get("reference") && geometry::trimmed(muscle.reference).empty())
+            reader.error(*entry.get("reference"),
+                         fmt::format("the reference of '{}' is empty; say where its part in this AU was published",
+                                     muscle.name));
+        unit.muscles.push_back(std::move(muscle));
     });
     reader.tables(table, "zone", true, [&](const toml::table& ellipse) {
         reader.only_keys(ellipse, {"at", "offset", "radii"});
@@ -327,8 +358,13 @@ std::vector<database::ScanId> unit_codes_of(std::string_view code) {
 
 }  // namespace
 
-FacsCatalogue::FacsCatalogue(Sampling sampling, std::vector<ActionUnit> units, std::vector<Emotion> emotions)
-    : sampling_(sampling), units_(std::move(units)), emotions_(std::move(emotions)) {}
+FacsCatalogue::FacsCatalogue(Sampling sampling, std::vector<ActionUnit> units, std::vector<Emotion> emotions,
+                             std::string name, std::string content_hash)
+    : sampling_(sampling),
+      units_(std::move(units)),
+      emotions_(std::move(emotions)),
+      name_(std::move(name)),
+      content_hash_(std::move(content_hash)) {}
 
 const ActionUnit* FacsCatalogue::find(int number) const {
     const auto it =
@@ -431,7 +467,9 @@ FacsCatalogue parse_catalogue(const std::string& text, const std::string& name) 
             errors += fmt::format("{}{}:{}: {}", errors.empty() ? "" : "; ", name, finding.line, finding.what);
     if (count > 5) errors += fmt::format("; and {} more ('mimik catalogue FILE --lint' lists all)", count - 5);
     if (count > 0) throw InputError(errors);
-    return {parsed.sampling, std::move(parsed.units), std::move(parsed.emotions)};
+    geometry::ContentHash hash;
+    hash.add(text);
+    return {parsed.sampling, std::move(parsed.units), std::move(parsed.emotions), name, hash.text()};
 }
 
 FacsCatalogue read_catalogue(const std::filesystem::path& file) {

@@ -39,7 +39,9 @@ struct ZoneEllipse {
 };
 
 struct Muscle {
-    std::string name, source;
+    std::string name;
+    std::string source;     ///< where it comes from, where it goes, what it pulls
+    std::string reference;  ///< where its part in the AU and its course were published
 };
 
 struct ActionUnit {
@@ -76,8 +78,11 @@ struct SidedUnit {
 
 class FacsCatalogue {
 public:
-    FacsCatalogue(Sampling sampling, std::vector<ActionUnit> units, std::vector<Emotion> emotions);
+    FacsCatalogue(Sampling sampling, std::vector<ActionUnit> units, std::vector<Emotion> emotions,
+                  std::string name = {}, std::string content_hash = {});
 
+    [[nodiscard]] const std::string& name() const { return name_; }  ///< its file, or "built-in catalogue"
+    [[nodiscard]] const std::string& content_hash() const { return content_hash_; }  ///< of its text
     [[nodiscard]] const Sampling& sampling() const { return sampling_; }
     [[nodiscard]] const std::vector<ActionUnit>& units() const { return units_; }
     [[nodiscard]] const std::vector<Emotion>& emotions() const { return emotions_; }
@@ -93,6 +98,7 @@ private:
     Sampling sampling_;
     std::vector<ActionUnit> units_;
     std::vector<Emotion> emotions_;
+    std::string name_, content_hash_;
 };
 
 /// The ARKit blendshape of an expression: "12L" -> "mouthSmileLeft", "17" -> "mouthShrugLower"; empty without one, or
@@ -114,7 +120,8 @@ struct LintFinding {
     std::string what;
 };
 /// Every fault of a catalogue: unknown keys and landmarks, weights that do not add up to 1, missing fields, AUs without
-/// a muscle point or zone, names used twice, points that fall together or off the reference face, lists out of range.
+/// a muscle point or zone, names used twice, points that fall together or off the reference face, lists out of range,
+/// landmarks of one side, muscles without a published reference, blendshapes that ARKit does not have.
 [[nodiscard]] std::vector<LintFinding> lint_catalogue(const std::string& text);
 /// @throws InputError with the first errors, each with file and line.
 [[nodiscard]] FacsCatalogue read_catalogue(const std::filesystem::path& file);

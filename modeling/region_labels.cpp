@@ -11,6 +11,8 @@
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/point_index.h"
+#include "geometry/text.h"
+#include "modeling/average_fingerprint.h"
 #include "preprocessing/control_pairs.h"
 
 namespace mimik::modeling {
@@ -71,15 +73,48 @@ RegionLabels label_regions(const geometry::QuadGrid& grid, const geometry::Landm
     return labels;
 }
 
-void write_region_labels(const std::filesystem::path& file, const RegionLabels& labels) {
-    std::string text = "row,col,region\n";
+namespace {
+
+// "# mimik regions, schema 1, average face 0123456789abcdef"
+constexpr std::string_view comment_begin = "# mimik regions, schema ", comment_middle = ", average face ";
+constexpr std::string_view schema = "1";
+
+/// What the comment of a label file names must be what is read here.
+void check_comment(const std::filesystem::path& file, const std::string& average_face) {
+    const auto text = geometry::read_text(file, 1 << 26);
+    geometry::LineReader lines(text, file.string());
+    if (!lines.next_not_blank() || !lines.line().starts_with(comment_begin)) return;
+    const auto rest = lines.line().substr(comment_begin.size());
+    const auto middle = rest.find(comment_middle);
+    const auto stated = geometry::trimmed(rest.substr(0, middle));
+    if (stated != schema)
+        lines.fail(
+            fmt::format("schema is {}; this version of Mimik reads schema {}", geometry::in_quotes(stated), schema));
+    if (middle == std::string_view::npos) return;
+    const auto face = geometry::trimmed(rest.substr(middle + comment_middle.size()));
+    if (face != average_face)
+        lines.fail(
+            fmt::format("these are regions of average face {}, and the workspace has {}; draw them again with 'mimik "
+                        "regions'",
+                        geometry::in_quotes(face), average_face));
+}
+
+}  // namespace
+
+std::string encode_region_labels(const RegionLabels& labels, const std::string& average_face) {
+    auto text = fmt::format("{}{}{}{}\nrow,col,region\n", comment_begin, schema, comment_middle, average_face);
     for (int row = 0; row < labels.rows; ++row)
         for (int col = 0; col < labels.cols; ++col) {
             const auto& label = labels.label[static_cast<std::size_t>(row) * static_cast<std::size_t>(labels.cols) +
                                              static_cast<std::size_t>(col)];
             if (!label.empty()) text += fmt::format("{},{},{}\n", row, col, label);
         }
-    geometry::write_atomically(file, text);
+    return text;
+}
+
+RegionLabels read_region_labels(const std::filesystem::path& file, const preprocessing::AverageFace& average) {
+    check_comment(file, average_fingerprint(average));
+    return read_region_labels(file, average.grid.rows, average.grid.cols);
 }
 
 RegionLabels read_region_labels(const std::filesystem::path& file, int rows, int cols) {

@@ -26,8 +26,13 @@ struct RegionLabels {
 /// upper_lip, lower_lip, chin, jaw_left/right, temple_left/right. Every vertex of the inside has exactly one.
 [[nodiscard]] RegionLabels label_regions(const geometry::QuadGrid& grid, const geometry::Landmarks& landmarks);
 
-/// CSV `row,col,region` of the inside vertices: readable, and to be edited with any name.
-void write_region_labels(const std::filesystem::path& file, const RegionLabels& labels);
+/// CSV `row,col,region` of the inside vertices: readable, and to be edited with any name. A comment before it names the
+/// schema and the average face (average_fingerprint) that the rows and columns are of.
+[[nodiscard]] std::string encode_region_labels(const RegionLabels& labels, const std::string& average_face);
+/// Labels of this average face: a file whose comment names another is refused; one without it must fit the grid.
+/// @throws InputError as below.
+[[nodiscard]] RegionLabels read_region_labels(const std::filesystem::path& file,
+                                              const preprocessing::AverageFace& average);
 /// @throws InputError naming file, line and value; rows and cols must be those of the grid.
 [[nodiscard]] RegionLabels read_region_labels(const std::filesystem::path& file, int rows, int cols);
 

@@ -36,43 +36,60 @@ ScanId source_scan(const Workspace& workspace, const std::string& subject, const
                                  workspace.root().string(), subject, expression, fmt::join(codes, ", ")));
 }
 
-ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatalogue& catalogue,
-                                     const std::string& expression, const ExpressionSource& source,
-                                     const ModelOptions& options) {
-    const auto code = catalogue.code(expression);
+void check_source(const Workspace& workspace, const ExpressionSource& source, const ModelOptions& options) {
     workspace.refuse_hidden(source.subject);
-    if (source.subject != "mean") {
-        const auto scan = source_scan(workspace, source.subject, code);
-        return measure_expression(catalogue, code, workspace.average(),
-                                  workspace.face(workspace.neutral(source.subject)), workspace.face(scan), options);
-    }
+    if (source.subject != "mean" || options.place_on_average) return;
+    auto subjects = workspace.subjects();
+    std::erase_if(subjects, [&](const std::string& subject) {
+        return workspace.hidden(subject) ||
+               std::find(source.excluded.begin(), source.excluded.end(), subject) != source.excluded.end();
+    });
+    throw InputError(
+        fmt::format("source 'mean': the thesis method has no mean (the thesis wished for it as future work; the "
+                    "default method has it); give --source, one of {}",
+                    fmt::join(subjects, ", ")));
+}
 
-    std::vector<std::string> subjects;
+std::vector<ScanId> source_scans(const Workspace& workspace, const FacsCatalogue& catalogue,
+                                 const std::string& expression, const ExpressionSource& source) {
+    const auto code = catalogue.code(expression);
+    if (source.subject != "mean") return {source_scan(workspace, source.subject, code)};
     std::vector<ScanId> ids;
     for (const auto& subject : workspace.subjects()) {
         if (workspace.hidden(subject) ||
             std::find(source.excluded.begin(), source.excluded.end(), subject) != source.excluded.end())
             continue;
-        if (const auto id = scan_that_shows(workspace, subject, code)) {
-            subjects.push_back(subject);
-            ids.push_back(*id);
-        }
+        if (const auto id = scan_that_shows(workspace, subject, code)) ids.push_back(*id);
     }
-    if (subjects.empty())
+    if (ids.empty())
         throw InputError(fmt::format("{}: no other subject shows expression '{}', so there is no mean",
                                      workspace.root().string(), code));
+    return ids;
+}
+
+ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatalogue& catalogue,
+                                     const std::string& expression, const ExpressionSource& source,
+                                     const ModelOptions& options) {
+    const auto code = catalogue.code(expression);
+    check_source(workspace, source, options);
+    const auto ids = source_scans(workspace, catalogue, code, source);
+    if (source.subject != "mean")
+        return measure_expression(catalogue, code, workspace.average(),
+                                  workspace.face(workspace.neutral(source.subject)), workspace.face(ids.front()),
+                                  options);
+
     const ExpressionGauge gauge(catalogue, code, workspace.average(), options);
     ExpressionMean sum;
     std::vector<std::string> faults;
     bool any = false;
     // In batches: only the sum stays, added in the order of the subjects.
     constexpr std::size_t batch = 16;
-    for (std::size_t begin = 0; begin < subjects.size(); begin += batch) {
-        std::vector<std::optional<ExpressionModel>> measured(std::min(batch, subjects.size() - begin));
+    for (std::size_t begin = 0; begin < ids.size(); begin += batch) {
+        std::vector<std::optional<ExpressionModel>> measured(std::min(batch, ids.size() - begin));
         std::vector<std::string> fault(measured.size());
         geometry::parallel_for(measured.size(), 1, [&](std::size_t first, std::size_t last) {
             for (std::size_t k = first; k < last; ++k) try {
-                    measured[k] = gauge.measure(workspace.face(workspace.neutral(subjects[begin + k])),
+                    measured[k] = gauge.measure(workspace.face(workspace.neutral(ids[begin + k].subject)),
                                                 workspace.face(ids[begin + k]));
                 } catch (const std::exception& e) {
                     fault[k] = fmt::format("{}: {}", ids[begin + k].name(), e.what());
@@ -88,7 +105,7 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
     }
     if (!any) throw InputError(fmt::format("expression '{}': {}", code, fmt::join(faults, "; ")));
     auto mean = sum.mean();
-    mean.left_out.insert(mean.left_out.end(), faults.begin(), faults.end());
+    mean.unusable_scans = std::move(faults);
     return mean;
 }
 

@@ -21,11 +21,24 @@ struct ExpressionSource {
 [[nodiscard]] database::ScanId source_scan(const preprocessing::Workspace& workspace, const std::string& subject,
                                            const std::string& expression);
 
+/// What can be found out about a source before any work. @throws InputError if the subject must not be shown, or where
+/// a mean is asked for and `options` place the points on each source's own face, as the thesis does.
+void check_source(const preprocessing::Workspace& workspace, const ExpressionSource& source,
+                  const ModelOptions& options);
+
+/// The scans that an expression is taken from, found out without reading them: one, or all that go into a mean.
+/// @throws InputError as model_from_workspace.
+[[nodiscard]] std::vector<database::ScanId> source_scans(const preprocessing::Workspace& workspace,
+                                                         const FacsCatalogue& catalogue, const std::string& expression,
+                                                         const ExpressionSource& source);
+
 /// The model of an expression ("12", "AU12_L", "happy": as FacsCatalogue::code reads it) from the scans of a workspace.
 /// A one-sided AU is taken from the subject's one-sided scan if there is one, else from that side of the two-sided scan
 /// (thesis 6, asymmetric AUs). Subjects who must not be shown (unallowed_subjects.txt) are never a source, nor part of
 /// a mean.
-/// @throws InputError if a subject, its neutral or its expression is missing; the message lists what there is.
+/// Scans that a mean could not use are in `unusable_scans`, with the reason; the mean is of the others.
+/// @throws InputError if a subject, its neutral or its expression is missing (the message lists what there is), or no
+/// scan of a mean can be used.
 [[nodiscard]] ExpressionModel model_from_workspace(const preprocessing::Workspace& workspace,
                                                    const FacsCatalogue& catalogue, const std::string& expression,
                                                    const ExpressionSource& source, const ModelOptions& options = {});

@@ -13,6 +13,7 @@
 #include "database/hidden_subjects.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/output_folder.h"
 #include "geometry/parallel.h"
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
@@ -108,6 +109,16 @@ std::optional<Face> read_finished(const fs::path& stem, const std::string& finge
     } catch (const InputError&) {
         return std::nullopt;  // damaged: made again
     }
+}
+
+/// Nothing can be done with a scan without landmarks: found out before it is gridded.
+database::LoadedScan load_marked(const ScanEntry& entry) {
+    auto loaded = database::load(entry);
+    if (!loaded.landmarks.all().empty()) return loaded;
+    if (!entry.landmarks_file.empty())
+        throw InputError(fmt::format("{}: there is no landmark in it; mark the face", entry.landmarks_file.string()));
+    throw InputError(fmt::format("no landmark file beside {}; put {} there", entry.scan_file.string(),
+                                 entry.scan_file.stem().string() + ".lm3"));
 }
 
 }  // namespace
@@ -273,7 +284,7 @@ private:
             try {
                 auto face = read_finished(stem, neutral_fingerprint(*entry));
                 if (!face) {
-                    face = preprocess_scan(database::load(*entry), options_);
+                    face = preprocess_scan(load_marked(*entry), options_);
                     // Every later step stands on these four landmarks: now is the time to find them missing or flat.
                     (void)affine_normalisation(face->snapped_landmarks, face->snapped_landmarks);
                     begin_writing();
@@ -387,7 +398,7 @@ private:
             ++subject.up_to_date;
             return;
         }
-        Face face = preprocess_scan(database::load(entry), options_);
+        Face face = preprocess_scan(load_marked(entry), options_);
         align_to_neutral(face, neutral,
                          stable_region_ ? stable_region_(face.id, neutral) : stable_on_every_face(neutral),
                          options_.alignment);
@@ -456,6 +467,9 @@ void check_workspace_place(const database::ScanDatabase& database, const fs::pat
     const auto inside = [](const fs::path& inner, const fs::path& outer) {
         return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
     };
+    std::error_code ignored;
+    if (fs::exists(root, ignored) && !fs::is_directory(root, ignored))
+        throw InputError(fmt::format("{}: is a file; give a folder for the workspace", root.string()));
     const auto output = place(root), home = place(database.root);
     std::set<fs::path> folders = {database.root, database.root / "truth"};
     for (const auto& entry : database.scans) folders.insert(entry.scan_file.parent_path());
@@ -475,7 +489,9 @@ PreprocessReport preprocess_database(const database::ScanDatabase& database, con
                                      const std::function<void(const std::string&)>& progress) {
     options.check();
     check_workspace_place(database, root);
-    return DatabaseRun(database, root, options, stable_region, progress).run();
+    DatabaseRun run(database, root, options, stable_region, progress);
+    geometry::check_takes_files(root);
+    return run.run();
 }
 
 void align_to_neutral(Face& face, const Face& neutral, const std::vector<char>& stable,

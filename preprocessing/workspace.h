@@ -92,8 +92,8 @@ private:
     std::vector<std::string> hidden_subjects_;
 };
 
-/// @throws InputError if `root` is the database's folder, or a subject's or the truth's or inside one: a database is
-/// never written into.
+/// @throws InputError if `root` is a file, the database's folder, or a subject's or the truth's or inside one: a
+/// database is never written into.
 void check_workspace_place(const database::ScanDatabase& database, const std::filesystem::path& root);
 
 /// Preprocesses a whole database, in parallel over subjects, one scan in memory per thread. What an earlier run
@@ -101,8 +101,8 @@ void check_workspace_place(const database::ScanDatabase& database, const std::fi
 /// the first face that a run writes to its end there is no workspace.json, so that nobody takes a half-made folder for
 /// a finished one. A scan that fails is reported and the rest goes on.
 /// @param progress  called once per scan, from any thread; may be empty.
-/// @throws InputError for bad options, a `root` in the database, an empty selection, or fewer than two subjects with a
-/// usable neutral.
+/// @throws InputError for bad options, a `root` in the database or one that takes no files, an empty selection, or
+/// fewer than two subjects with a usable neutral.
 PreprocessReport preprocess_database(const database::ScanDatabase& database, const std::filesystem::path& root,
                                      const PreprocessOptions& options = {}, const StableRegion& stable_region = {},
                                      const std::function<void(const std::string& scan)>& progress = {});

@@ -1,6 +1,9 @@
 #include "animation/animate.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +15,7 @@
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
 #include "tests/support/dense_spline.h"
+#include "tests/support/glb_faults.h"
 
 namespace mimik::animation {
 namespace {
@@ -69,7 +73,7 @@ TEST_F(Animate, at_magnitude_zero_is_the_neutral_face) {
     const TargetFace target(target_->neutral, modeling::Frame::similarity);
     const WeightedExpression nothing{&model, 0.0};
     const auto animated = animate(target, std::span(&nothing, 1));
-    EXPECT_EQ(animated.largest_displacement_mm, 0);
+    EXPECT_EQ(animated.extent.largest_displacement_mm, 0);
 }
 
 TEST_F(Animate, moves_a_face_of_other_size_most_of_the_way_to_its_own_smile) {
@@ -127,8 +131,8 @@ TEST_F(Animate, the_same_unit_twice_doubles_as_a_sum_and_does_not_in_parallel) {
     AnimationOptions options;
     options.combination = Combination::parallel;
     const auto parallel = animate(target, twice, options);
-    EXPECT_NEAR(sum.largest_displacement_mm, 2 * single.largest_displacement_mm, 1e-9);
-    EXPECT_NEAR(parallel.largest_displacement_mm, single.largest_displacement_mm, 1e-9);
+    EXPECT_NEAR(sum.extent.largest_displacement_mm, 2 * single.extent.largest_displacement_mm, 1e-9);
+    EXPECT_NEAR(parallel.extent.largest_displacement_mm, single.extent.largest_displacement_mm, 1e-9);
 }
 
 TEST_F(Animate, beyond_magnitude_one_a_remark_says_so) {
@@ -172,19 +176,65 @@ TEST_F(Animate, the_thesis_warp_equals_a_direct_dense_solve_of_its_system) {
     EXPECT_LT(worst, 1e-9);
 }
 
-TEST_F(Animate, exports_leave_out_what_was_not_measured_and_keep_the_displacement) {
+TEST_F(Animate, exports_leave_out_what_is_no_measured_surface_and_keep_the_displacement) {
+    const auto model = smile();
+    auto neutral = target_->neutral;
+    // A vertex whose four neighbours in the rows and columns were not measured: no quad can use it.
+    auto& grid = neutral.grid;
+    std::uint32_t lone = 0;
+    for (int row = 2; row + 2 < grid.rows && lone == 0; ++row)
+        for (int col = 2; col + 2 < grid.cols && lone == 0; ++col)
+            if (grid.measured(grid.index(row, col)) && grid.measured(grid.index(row + 1, col + 1)) &&
+                grid.measured(grid.index(row - 1, col - 1)))
+                lone = grid.index(row, col);
+    ASSERT_NE(lone, 0U);
+    const auto cols = static_cast<std::uint32_t>(grid.cols);
+    for (const auto v : {lone - 1, lone + 1, lone - cols, lone + cols})
+        grid.origin[v] = geometry::VertexOrigin::bridged;
+    const TargetFace target(neutral, modeling::Frame::similarity);
+    const WeightedExpression weighted{&model, 1.0};
+    const auto animated = animate(target, std::span(&weighted, 1));
+    const auto mesh = to_mesh(animated, target);
+    std::vector<char> used(mesh.vertices_mm.size(), 0);
+    for (const auto corner : mesh.faces.corners) used[corner] = 1;
+    EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
+    std::set<std::uint32_t> in_quads;
+    for (const auto corner : geometry::quads(grid, geometry::BridgedVertices::leave_out).corners)
+        in_quads.insert(corner);
+    EXPECT_FALSE(in_quads.contains(lone));
+    EXPECT_EQ(mesh.vertices_mm.size(), in_quads.size());
+    ASSERT_EQ(mesh.attributes.size(), 2U);
+    EXPECT_EQ(mesh.attributes[0].name, "displacement_mm");
+    EXPECT_EQ(mesh.attributes[0].values.size(), 3 * in_quads.size());
+    EXPECT_THROW(write_animated_face("face.stl", animated, target, {}, {}), InputError);
+}
+
+TEST_F(Animate, lengths_are_those_of_the_frame_that_they_are_asked_in) {
     const auto model = smile();
     const TargetFace target(target_->neutral, modeling::Frame::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
-    const auto mesh = to_mesh(animated, target);
-    std::size_t measured = 0;
-    for (std::size_t v = 0; v < animated.grid.size(); ++v) measured += animated.grid.measured(v) ? 1 : 0;
-    EXPECT_EQ(mesh.vertices_mm.size(), measured);
-    ASSERT_EQ(mesh.attributes.size(), 2U);
-    EXPECT_EQ(mesh.attributes[0].name, "displacement_mm");
-    EXPECT_EQ(mesh.attributes[0].values.size(), 3 * measured);
-    EXPECT_THROW(write_animated_face("face.stl", animated, target, {}, {}), InputError);
+    // A similarity: every length is its scale times that of the scanner's frame.
+    const Eigen::Matrix3d turn = target.average_from_scan().linear();
+    const double scale = std::cbrt(turn.determinant());
+    ASSERT_GT(std::abs(scale - 1), 0.01);
+    const auto average = field_extent(animated.grid, animated.displacement_mm, turn);
+    EXPECT_GT(animated.extent.largest_displacement_mm, 4);
+    EXPECT_NEAR(average.largest_displacement_mm, scale * animated.extent.largest_displacement_mm, 1e-9);  // rounding
+    EXPECT_NEAR(average.largest_neighbour_step_mm, scale * animated.extent.largest_neighbour_step_mm, 1e-9);
+}
+
+TEST_F(Animate, what_is_too_large_for_a_number_is_refused_with_the_name_of_the_expression) {
+    const auto model = smile();
+    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const auto refused = [&](const ExpressionModel& one, double magnitude) {
+        const WeightedExpression weighted{&one, magnitude};
+        return database::message_of<NumericalError>([&] { (void)animate(target, std::span(&weighted, 1)); });
+    };
+    EXPECT_THAT(refused(model, 1e300), HasSubstr("AU12 at magnitude 1e+300"));
+    auto huge = model;
+    huge.points.front().displacement_mm.x() = 1e300;
+    EXPECT_THAT(refused(huge, 1), HasSubstr("AU12"));
 }
 
 TEST_F(Animate, the_thesis_landmark_splines_equal_a_direct_dense_solve_too) {
@@ -337,8 +387,10 @@ TEST_F(Animate, in_the_average_frame_positions_and_displacements_turn_alike) {
     const auto& moved = mesh.attributes.front();
     ASSERT_EQ(moved.name, "displacement_mm");
     std::size_t k = 0;
-    for (std::size_t v = 0; v < animated.grid.size(); ++v) {
-        if (!animated.grid.measured(v)) continue;
+    std::set<std::uint32_t> in_quads;
+    for (const auto v : geometry::quads(animated.grid, geometry::BridgedVertices::leave_out).corners)
+        in_quads.insert(v);
+    for (const auto v : in_quads) {
         const Vector turned = target.average_from_scan().linear() * animated.displacement_mm[v];
         const Vector written(moved.values[3 * k], moved.values[3 * k + 1], moved.values[3 * k + 2]);
         ASSERT_LT((written - turned).norm(), 1e-9) << v;  // rounding
@@ -392,6 +444,7 @@ TEST_F(Animate, morph_targets_hold_the_fields_at_magnitude_one_with_the_name_tha
     std::vector<NamedMagnitude> names = {{"AU12_L", 0.5, "mouthSmileLeft"}, {"AU12", 0.25, ""}};
     EXPECT_TRUE(write_animated_face(file, animated, target, names, {}).empty());
     const ReadGlb glb(file);
+    EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
     const auto& mesh = glb.json["meshes"][0];
     EXPECT_EQ(mesh["extras"]["targetNames"], nlohmann::json({"AU12_L", "AU12"}));
     EXPECT_EQ(mesh["extras"]["arkitNames"], nlohmann::json({"mouthSmileLeft", ""}));
@@ -423,6 +476,7 @@ TEST_F(Animate, a_parallel_resultant_is_one_morph_target_and_a_remark_says_so) {
     EXPECT_THAT(write_animated_face(file, animated, target, names, {}),
                 testing::ElementsAre(HasSubstr("one, AU12_L+AU12")));
     const ReadGlb glb(file);
+    EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
     EXPECT_EQ(glb.json["meshes"][0]["extras"]["targetNames"], nlohmann::json({"AU12_L+AU12"}));
     EXPECT_EQ(glb.json["meshes"][0]["weights"], nlohmann::json({1.0}));
     EXPECT_NEAR(glb.largest_mm(0), largest_mm(animated, animated.displacement_mm), 1e-5);  // 32-bit floats

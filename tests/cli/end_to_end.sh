@@ -35,13 +35,58 @@ claim "an expression may be typed in every way in which it is written"
 "$mimik" animate work1 --target bs001 --model models/bs000/AU12.json:0.5 -o stored.glb --quiet
 cmp measured.glb stored.glb
 expect_code 2 "nothing to animate" "$mimik" animate work1 --target bs001 -o nothing.ply
-claim "a stored model animates as the one that is measured does"
+"$mimik" model work1 --source bs000 --expression 12 --quiet
+cmp models/bs000/AU12.json work1/models/default/bs000/AU12.json
+"$mimik" model work1 --source bs000 --expression 12 --kernel r2logr --no-anchors --quiet
+cmp models/bs000/AU12.json work1/models/default/bs000/AU12.json
+other=work1/models/default_r2logr_no-anchors/bs000/AU12.json
+grep -q '"kernel": "r2logr"' "$other" && grep -q '"anchors": false' "$other" && grep -q '"mimik"' "$other"
+"$mimik" animate work1 --target bs001 --model "$other" -o stored.glb >out.txt 2>err.txt
+grep -q "kernel r2logr, here r" err.txt
+"$mimik" animate work1 --target bs001 --model models/bs000/AU12.json -o stored.glb >out.txt 2>err.txt
+grep -qF "made otherwise" err.txt && fail "a difference where there is none"
+expect_code 3 "AU12 at magnitude 1e+300" "$mimik" animate work1 --source bs000 --target bs001 --au 12:1e300 -o nothing.ply
+[ ! -e nothing.ply ]
+claim "a stored model says how it was made, keeps its file from others, and animates as the one that is measured does"
 
 for extension in ply obj vtp; do
   "$mimik" animate work1 --source bs000 --target bs001 --au 12 --method thesis -o "face.$extension" --quiet
   [ -s "face.$extension" ]
 done
+for command in "model work1 -o thesis_models" "animate work1 --target bs001 --au 12 -o nothing.ply" \
+               "panels work1 --target bs001 --au 12 -o nothing" "panels work1 --target bs001 --au 12 -o nothing --dry-run"; do
+  expect_code 2 $'the thesis method has no mean\nbs000' "$mimik" $command --method thesis
+done
+[ ! -e thesis_models ] && [ ! -e nothing.ply ] && [ ! -e nothing ]
+claim "the thesis has no mean, and that is said before any work"
+
+largest() { sed -n 's/^ *"largest_displacement_mm": \(.*\),/\1/p' "$1" | tail -n 1; }
+for frame in scanner average; do
+  "$mimik" animate work1 --source bs000 --target bs001 --au 12 --frame $frame --keep-bridged -o frame.ply --json >$frame.json
+  "$mimik" animate work1 --source bs000 --target bs001 --au 12:0 --frame $frame --keep-bridged -o frame0.ply --quiet
+done
+[ "$(largest scanner.json)" != "$(largest average.json)" ]
+claim "lengths in the result are those of the frame that is written"
+
+"$mimik" regions work1 --quiet >/dev/null
+"$mimik" regions work1 --quiet >/dev/null
+"$mimik" animate work1 --source bs000 --target bs001 --au 12 --hold nose -o drawn/face.ply --quiet
+sed -i 's/,nose$/,mine/' work1/average/regions.csv
+"$mimik" animate work1 --source bs000 --target bs001 --au 12 --hold mine -o edited/face.ply --quiet
+cmp drawn/face.ply edited/face.ply
+expect_code 2 $'regions.csv\n--force' "$mimik" regions work1
+grep -q ',mine$' work1/average/regions.csv
+sed '1s/average face .*/average face 0123456789abcdef/' work1/average/regions.csv >other.csv
+expect_code 2 "0123456789abcdef" "$mimik" animate work1 --target bs001 --au 12 --hold mine --regions other.csv -o nothing.ply
+expect_code 2 "--hold" "$mimik" animate work1 --target bs001 --au 12 --regions other.csv -o nothing.ply
+[ ! -e nothing.ply ]
+"$mimik" regions work1 --force --quiet >/dev/null
+expect_code 2 "'mine'" "$mimik" animate work1 --target bs001 --au 12 --hold mine -o nothing.ply
+claim "edited regions are used where they lie, kept, and refused of another face"
+
 "$mimik" animate work1 --source bs000 --target bs001 --au 12:0 -o neutral.ply --quiet
+"$mimik" distance neutral.ply neutral.ply --json | awk '/"max"/ { sub(/.*: /, ""); if ($0 + 0 > 1e-6) exit 1 }'
+claim "a face is nowhere off itself"  # a vertex that no polygon uses would be
 "$mimik" distance face.ply neutral.ply --json >distance.json
 grep -q '"units": "mm"' distance.json
 claim "faces are written in every format and can be measured"
@@ -77,6 +122,10 @@ expect_code 2 "stand in --series" "$mimik" panels work1 --target bs001 --au 12:0
 expect_code 2 "bs000, bs001, bs002" "$mimik" panels work1 --target bs009 --au 12 -o nothing
 expect_code 2 "no scan of expression '17'" "$mimik" panels work1 --source bs000 --target bs001 --au 17 -o nothing
 [ ! -e nothing ]
+expect_code 2 "magnitude -1" "$mimik" panels work1 --source bs000 --target bs001 --au 12 --series 0,-1 -o nothing --dry-run
+expect_code 2 "magnitude nan" "$mimik" panels work1 --source bs000 --target bs001 --au 12 --series 2,nan -o nothing
+expect_code 2 "no other subject shows expression '15'" "$mimik" panels work1 --source mean --target bs001 --au 15 -o nothing --dry-run
+[ ! -e nothing ]
 expect_code 2 "asked for twice" "$mimik" panels work1 --source bs000 --target bs001 --au 12,AU12 -o nothing
 claim "panels that cannot be are refused by name"
 
@@ -85,6 +134,16 @@ echo '{}' >work3/faces/bs001/bs001_UFAU_4_0.json
 expect_code 1 "AU4_bs000_on_bs001_default: " "$mimik" panels work3 --source bs000 --target bs001 --au 4,12 -o panels3 --quiet
 [ -s panels3/AU12_bs000_on_bs001_default/figure.json ]
 claim "an AU that cannot be shown is named with 1, and the others are"
+echo '{}' >work3/faces/bs000/bs000_LFAU_12_0.json
+for command in "animate work3 --au 12 -o mean3.ply" "panels work3 --au 12 --source mean -o panels3"; do
+  expect_code 1 $'left out of the mean\nbs000_LFAU_12_0' "$mimik" $command --target bs001 --quiet
+done
+expect_code 1 $'left out of the mean\nbs000_LFAU_12_0' "$mimik" model work3 --expression 12 --quiet
+code=0
+"$mimik" animate work3 --target bs001 --au 12 -o mean3.ply --json >mean3.json 2>/dev/null || code=$?
+[ "$code" -eq 1 ] && grep -A1 '"failures": \[' mean3.json | grep -q bs000_LFAU_12_0
+[ -s mean3.ply ]
+claim "a scan that a mean cannot use is a failure (1), and the mean is of the others"
 
 code=0
 PATH=nowhere alone/mimik preprocess db1 -o work2 --sheets --quiet >out.txt 2>err.txt || code=$?
@@ -117,6 +176,7 @@ expect_code 2 "'99'" "$mimik" evaluate work1 --expression 99 --dry-run
 expect_code 2 "trim is nan" "$mimik" preprocess db1 -o x --trim nan --dry-run
 expect_code 2 "100000" "$mimik" preprocess db1 -o x --rows 100000 --dry-run
 expect_code 2 "nothing is written" "$mimik" preprocess db1 -o db1 --dry-run
+"$mimik" evaluate work1 --expression 12 --dry-run --json | grep -q '"megabytes"'
 "$mimik" preprocess db1 -o x --dry-run --json --threads "$(nproc)" >estimate.json
 "$mimik" preprocess db1 -o x --dry-run --json --threads 1024 | diff estimate.json -
 claim "a dry run refuses what the run would, and believes in no more threads than there are cores"
@@ -124,7 +184,12 @@ claim "a dry run refuses what the run would, and believes in no more threads tha
 touch file
 expect_code 2 "file" "$mimik" evaluate work1 --expression 12 -o file/scores
 [ ! -s out.txt ]
-claim "a folder that takes no scores is found out before the work"
+expect_code 2 "file: is a file" "$mimik" preprocess db1 -o file
+expect_code 2 "/proc/mimik" "$mimik" preprocess db1 -o /proc/mimik
+code=0
+"$mimik" evaluate work1 --expression 12 --no-reference --no-whole-face --json >/dev/full 2>err.txt || code=$?
+[ "$code" -eq 2 ] && grep -q "standard output" err.txt
+claim "a folder that takes no scores or faces is found out before the work, and a disk that takes no result ends with 2"
 
 head -c 1000 db1/bs002/bs002_LFAU_12_0.bnt >cut.bnt
 cp -r db1 broken

@@ -72,6 +72,28 @@ claim "points are measured to the nearest point of the surface, edges included"
 "$mimik" distance low.obj high.obj -o low.vtp --quiet >/dev/null
 grep -q 'Name="distance_mm"' low.vtp || fail "values per vertex"
 claim "distances per vertex are written"
+for extension in vtp ply; do  # the distances of another reference are there already
+  square 7 >higher.obj
+  "$mimik" distance low.obj high.obj -o first.$extension --quiet >/dev/null
+  "$mimik" distance first.$extension higher.obj -o second.$extension --quiet >/dev/null
+  [ "$(grep -aoE 'Name="distance_mm"|property [a-z0-9]+ distance_mm' second.$extension | wc -l)" -eq 1 ] || fail "distance_mm twice"
+done
+"$mimik" distance second.ply higher.obj -o third.ply --quiet >/dev/null
+cmp second.ply third.ply || fail "the new distances are not those in the file"
+claim "distances replace those that the mesh had"
+for extension in stl obj csv; do
+  expect_code 2 $'lost.'$extension$'\n.vtp or .ply' "$mimik" distance low.obj missing.obj -o lost.$extension
+  [ ! -e lost.$extension ] || fail "a file that should not be"
+done
+claim "a format that holds no distances is refused before any file is read"
+for command in "distance low.obj high.obj --json" "catalogue --text" "catalogue --help"; do
+  code=0
+  "$mimik" $command >/dev/full 2>err.txt || code=$?
+  [ "$code" -eq 2 ] && grep -q "standard output" err.txt || fail "a full disk is no success: $command"
+done
+claim "a result that standard output does not take ends with 2"
+expect_code 2 $'no command \'distnace\'\ndistance' "$mimik" distnace low.obj high.obj
+claim "an unknown command is named with the nearest"
 
 grep -v '^b,' box.csv >fewer.csv
 printf 'f,1,1,1\ng,2,2,2\n' >>fewer.csv
@@ -88,21 +110,26 @@ scan=db/bs003/bs003_N_N_0
 expect_code 2 "'bs003' stands in" "$mimik" warp --from box.csv --to moved.csv $scan.obj -o nothing.csv
 expect_code 2 "'bs003' stands in" "$mimik" warp --from $scan.csv --to moved.csv points.csv -o nothing.csv
 expect_code 2 "'bs003' stands in" "$mimik" warp --from box.csv --to $scan.csv points.csv -o nothing.csv
-expect_code 2 "'bs003' stands in" "$mimik" distance $scan.obj high.obj -o nothing.csv
-expect_code 2 "'bs003' stands in" "$mimik" distance low.obj $scan.obj -o nothing.csv
-[ ! -e nothing.csv ] || fail "a file of a hidden subject"
+expect_code 2 "'bs003' stands in" "$mimik" distance $scan.obj high.obj -o nothing.ply
+expect_code 2 "'bs003' stands in" "$mimik" distance low.obj $scan.obj -o nothing.ply
+[ ! -e nothing.csv ] && [ ! -e nothing.ply ] || fail "a file of a hidden subject"
 claim "scans and points of a hidden subject are neither warped nor measured"
 
 printf 'name,x,y,z\na,0,0,0\nb,1,0,0\nc,2,1,0\nd,0,1,0\n' >flat.csv
 expect_code 3 "plane" "$mimik" warp --from flat.csv --to flat.csv points.csv -o nothing.csv
 [ ! -e nothing.csv ] || fail "a file that should not be"
-claim "landmarks without a partner are all named, as are missing files, references without a surface, and flat landmarks (3)"
+printf 'name,x,y,z\nnear,1,2,3\nfar,1e200,0,0\n' >far.csv
+expect_code 3 "'far'" "$mimik" warp --from box.csv --to moved.csv far.csv -o nothing.csv
+[ ! -e nothing.csv ] || fail "a file that should not be"
+claim "landmarks without a partner are all named, as are missing files, references without a surface, flat landmarks and points beyond all numbers (3)"
 
 "$mimik" catalogue --lint >lint.txt
 grep -q ': 0 errors' lint.txt || fail "the catalogue that is shipped has faults"
 "$mimik" catalogue --text >own.toml
 "$mimik" catalogue own.toml --json >own.json
 "$mimik" catalogue --json | diff <(grep -v '"catalogue"' own.json) <(grep -v '"catalogue"') || fail "its text is not what it is"
+"$mimik" catalogue | grep -q "Gray's Anatomy, muscles of facial expression (AU 1, 2, 4, 12" || fail "references of the muscles"
+grep -q '"reference": "FACS' own.json || fail "reference of a muscle"
 claim "the catalogue that is shipped has no fault, and its text reads back the same"
 line=$(grep -n -m1 'mouth_corner = 1.0' own.toml | cut -d: -f1)
 sed "${line}s/mouth_corner = 1.0/mouth_korner = 1.0/" own.toml >wrong.toml

@@ -1,6 +1,8 @@
 #include "evaluation/comparison_panels.h"
 
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -251,7 +253,7 @@ TEST_F(ComparisonPanels, what_differs_from_the_method_and_the_view_stands_in_the
               "AU12_series_bs000_on_bs001_default_three-quarter-left");
 }
 
-TEST_F(ComparisonPanels, a_series_refuses_what_would_share_a_file_and_writes_nothing) {
+TEST_F(ComparisonPanels, a_series_refuses_what_is_no_magnitude_or_would_share_a_file_and_writes_nothing) {
     const std::vector<std::string> one = {"12"}, twice = {"12", "12"};
     const std::vector<double> near = {0.5, 0.5000001}, apart = {0.5, 1};
     const auto series = [&](const std::vector<std::string>& expressions, const std::vector<double>& magnitudes) {
@@ -262,6 +264,9 @@ TEST_F(ComparisonPanels, a_series_refuses_what_would_share_a_file_and_writes_not
     };
     EXPECT_THAT(series(one, near), HasSubstr("'12' at magnitude 0.5000001 stands twice"));
     EXPECT_THAT(series(twice, apart), HasSubstr("'12' at magnitude 0.5 stands twice"));
+    EXPECT_THAT(series(one, {0, -1}), HasSubstr("magnitude -1 of the series"));
+    EXPECT_THAT(series(one, {2, std::nan("")}), HasSubstr("magnitude nan of the series"));
+    EXPECT_THAT(series(one, {2, std::numeric_limits<double>::infinity()}), HasSubstr("magnitude inf of the series"));
     EXPECT_FALSE(fs::exists(out("shared")));
 }
 
@@ -293,11 +298,32 @@ TEST_F(ComparisonPanels, what_cannot_be_shown_is_refused_by_name_before_any_file
     auto frown = smile("bs000", "bs001");
     frown.expression = "4";
     EXPECT_THAT(refused(frown), HasSubstr("'bs000' has no scan of expression '4'; there are: 12"));
+    frown.source = "mean";
+    EXPECT_THAT(refused(frown), HasSubstr("no other subject shows expression '4'"));
+    auto thesis = smile("mean", "bs001");
+    thesis.method = method_by_name("thesis");
+    EXPECT_THAT(refused(thesis), HasSubstr("the thesis method has no mean"));
     EXPECT_FALSE(fs::exists(out("refused")));
     EXPECT_THAT(message_of<InputError>([&] {
                     (void)write_magnitude_series(*workspace_, catalogue(), smile("bs000", "bs001"), {}, {}, out("no"));
                 }),
                 HasSubstr("0 expressions at 0 magnitudes"));
+}
+
+TEST_F(ComparisonPanels, a_scan_that_a_mean_cannot_use_is_a_failure_beside_the_picture_of_the_rest) {
+    const database::TemporaryFolder folder;
+    const auto workspace = test::analytic_workspace(folder.path());
+    geometry::write_atomically(workspace.root() / "faces" / "bs000" / "bs000_LFAU_12_0.json", "{}");
+    const std::vector<std::string> one = {"12"};
+    const std::vector<double> whole = {1};
+    const auto panels =
+        write_comparison_panels(workspace, catalogue(), smile("mean", "bs001"), folder.path() / "panels");
+    const auto series =
+        write_magnitude_series(workspace, catalogue(), smile("mean", "bs001"), one, whole, folder.path() / "series");
+    for (const auto* figure : {&panels, &series}) {
+        EXPECT_THAT(figure->failures, ElementsAre(HasSubstr("AU12: left out of the mean: bs000_LFAU_12_0")));
+        EXPECT_TRUE(fs::exists(figure->description));
+    }
 }
 
 TEST_F(ComparisonPanels, a_scan_that_was_aligned_beside_its_neutral_is_named) {

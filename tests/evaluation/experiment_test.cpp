@@ -133,6 +133,35 @@ TEST_F(Experiment, the_tables_hold_what_the_report_holds) {
     EXPECT_THAT(markdown, HasSubstr("| *true field, one source* |"));
 }
 
+TEST_F(Experiment, a_whole_face_that_was_not_scored_is_no_figure_in_any_table) {
+    auto options = smile_options();
+    options.whole_face = false;
+    const auto report = run(*workspace_, options);
+    const auto json = nlohmann::json::parse(to_json(report));
+    for (const auto& row : json.at("rows")) {
+        EXPECT_TRUE(row.at("explained_whole_face").is_null());
+        EXPECT_TRUE(row.at("expressions").at("12").at("explained_whole_face").is_null());
+        EXPECT_TRUE(row.at("explained").is_number());
+    }
+    const auto csv = to_csv(report);
+    // Seventh of the columns: after method, kind, reference, expression and two figures.
+    std::vector<std::string> fields(1);
+    for (const char c : csv.substr(csv.find("\"default\""), csv.find('\n', csv.find("\"default\""))))
+        if (c == ',')
+            fields.emplace_back();
+        else if (c == '\n')
+            break;
+        else
+            fields.back() += c;
+    ASSERT_EQ(fields.size(), 15U);
+    EXPECT_NE(fields[5], "");
+    EXPECT_EQ(fields[6], "");
+    EXPECT_NE(fields[7], "");
+    // The cell before the share of cases worse than nothing.
+    EXPECT_THAT(to_markdown(report), testing::ContainsRegex("[|] default [|].*[|]  [|] [0-9.]+ % of"));
+    EXPECT_THAT(to_markdown(*report_), testing::Not(testing::ContainsRegex("[|] default [|].*[|]  [|] [0-9.]+ % of")));
+}
+
 TEST_F(Experiment, fewer_sources_are_fewer_cases) {
     auto options = smile_options();
     options.max_sources = 1;

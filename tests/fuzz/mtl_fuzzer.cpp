@@ -1,13 +1,16 @@
 #include "geometry/formats/obj.h"
 #include "geometry/mesh_io.h"
+#include "geometry/texture_path.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {
 
 void fuzz_one(std::span<const std::uint8_t> bytes) {
     const auto name =
-        geometry::checked_texture_name(geometry::formats::texture_of_material(text_of(bytes), "input"), "input");
-    require(name.find_first_of("/\\:\n") == std::string::npos && name != "..", "a texture stays in its folder");
+        geometry::checked_texture_path(geometry::formats::texture_of_material(text_of(bytes), "input"), "input");
+    require(name.find_first_of("\\:\n") == std::string::npos && !name.starts_with('/') &&
+                ("/" + name + "/").find("/../") == std::string::npos,
+            "a texture stays in its folder or below");
 }
 
 std::vector<std::string> seeds() {

@@ -10,12 +10,16 @@
 #include "geometry/formats/bytes.h"
 #include "geometry/image.h"
 #include "tests/geometry/files_testing.h"
+#include "tests/support/glb_faults.h"
 
 namespace mimik::geometry {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
 using Json = nlohmann::json;
 
 /// A bent sheet of 5 x 4 vertices with a vertex that no triangle uses and that is not a number.
@@ -128,28 +132,37 @@ TEST(Glb, errors_name_the_mesh_and_the_part) {
         change(scene.meshes[0]);
         return message_of([&] { (void)encode_glb(scene); });
     };
+    const auto not_finite = [](auto change) {
+        auto scene = textured_scene();
+        change(scene.meshes[0]);
+        return message_of<NumericalError>([&] { (void)encode_glb(scene); });
+    };
     EXPECT_THAT(refused([](GlbMesh& m) { m.triangles.clear(); }), HasSubstr("GLB mesh 'face': there is no triangle"));
     EXPECT_THAT(refused([](GlbMesh& m) { m.triangles[0][1] = 99; }), HasSubstr("a triangle names vertex 99 of 21"));
-    EXPECT_THAT(refused([](GlbMesh& m) { m.positions_mm[3].z() = std::nan(""); }),
-                HasSubstr("vertex 3 is not a finite position"));
+    EXPECT_THAT(not_finite([](GlbMesh& m) { m.positions_mm[3].z() = std::nan(""); }),
+                HasSubstr("the position of vertex 3 is not a finite"));
     EXPECT_THAT(refused([](GlbMesh& m) { m.normals.resize(2); }), HasSubstr("2 normals for 21 vertices"));
     EXPECT_THAT(refused([](GlbMesh& m) { m.texture_coordinates.clear(); }),
                 HasSubstr("there is a texture but no texture positions"));
-    EXPECT_THAT(refused([](GlbMesh& m) { m.texture_coordinates[2].x() = std::nan(""); }),
-                HasSubstr("texture position of vertex 2"));
+    EXPECT_THAT(not_finite([](GlbMesh& m) { m.texture_coordinates[2].x() = std::nan(""); }),
+                HasSubstr("the texture position of vertex 2"));
     EXPECT_THAT(refused([](GlbMesh& m) { m.texture_png = {1, 2, 3}; }), HasSubstr("the texture is not a PNG file"));
     EXPECT_THAT(refused([](GlbMesh& m) { m.colours.resize(3); }), HasSubstr("3 colours for 21 vertices"));
     EXPECT_THAT(refused([](GlbMesh& m) { m.morph_targets[1].displacement_mm.pop_back(); }),
                 HasSubstr("morph target 'AU12_R' has 20 displacements"));
-    EXPECT_THAT(refused([](GlbMesh& m) { m.morph_targets[0].displacement_mm[4].x() = std::nan(""); }),
+    EXPECT_THAT(not_finite([](GlbMesh& m) { m.morph_targets[0].displacement_mm[4].x() = std::nan(""); }),
                 HasSubstr("'AU12_L': the displacement of vertex 4"));
+    // A number of 64 bits that is none of 32.
+    EXPECT_THAT(not_finite([](GlbMesh& m) { m.positions_mm[3].z() = 1e300; }), HasSubstr("the position of vertex 3"));
+    EXPECT_THAT(not_finite([](GlbMesh& m) { m.morph_targets[0].weight = 1e300; }),
+                HasSubstr("'AU12_L': weight 1e+300"));
     EXPECT_THAT(message_of([] { (void)encode_glb({}); }), HasSubstr("at least one mesh"));
     const TemporaryFolder folder;
     EXPECT_THAT(message_of([&] { write_glb(folder / "a.glb", {}); }), HasSubstr("a.glb: not written: "));
 }
 
-TEST(Glb, the_files_pass_the_khronos_validator) {
-    const TemporaryFolder folder;
+/// Two meshes, one with colours in place of a texture, and a triangle without area.
+GlbScene scene_of_two() {
     auto coloured = sheet();
     coloured.name = "ohne Textur, \xC3\xA4";
     for (std::size_t i = 0; i < coloured.positions_mm.size(); ++i)
@@ -158,9 +171,53 @@ TEST(Glb, the_files_pass_the_khronos_validator) {
     coloured.morph_targets.clear();
     auto two = textured_scene();
     two.meshes.push_back(coloured);
-    two.meshes[0].triangles.push_back({3, 3, 4});  // a triangle without area
+    two.meshes[0].triangles.push_back({3, 3, 4});
+    return two;
+}
+
+TEST(Glb, the_files_keep_to_the_specification) {
+    EXPECT_THAT(test::glb_faults(encode_glb(textured_scene())), IsEmpty());
+    EXPECT_THAT(test::glb_faults(encode_glb(scene_of_two())), IsEmpty());
+}
+
+TEST(Glb, what_a_damaged_file_breaks_of_the_specification_is_seen) {
+    const auto good = encode_glb(textured_scene());
+    const auto faults = [&](const std::string& from, const std::string& to) {
+        auto text = std::string(formats::as_text(good));
+        const auto at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        text.replace(at, from.size(), to);
+        return test::glb_faults(bytes_of(text));
+    };
+    const auto chunks = split(good);
+    const auto& primitive = chunks.json["meshes"][0]["primitives"][0];
+    const auto view =
+        chunks.json["bufferViews"]
+                   [chunks.json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()]["bufferView"]
+                        .get<std::size_t>()];
+    const auto first =
+        static_cast<std::size_t>(chunks.binary.data() - good.data()) + view["byteOffset"].get<std::size_t>();
+    auto broken = good;
+    broken[first + 3] ^= 0x40;  // another exponent: the bounds are no longer those of the data
+    EXPECT_THAT(test::glb_faults(broken), Contains(HasSubstr("bounds are not those of the data")));
+    broken[first + 2] = 0x80;
+    broken[first + 3] = 0x7F;  // infinite
+    EXPECT_THAT(test::glb_faults(broken), Contains(HasSubstr("not finite")));
+    broken = good;
+    broken.pop_back();
+    EXPECT_THAT(test::glb_faults(broken), Contains(HasSubstr("length is not that of the file")));
+    EXPECT_THAT(faults("\"count\":20", "\"count\":19"), Not(IsEmpty()));
+    EXPECT_THAT(faults("\"weights\":[0.25,0.25]", "\"weights\":[0.25,null]"), Contains("a weight is no number"));
+    EXPECT_THAT(faults("\"weights\":[0.25,0.25]", "\"weights\":[0.25     ]"), Contains(HasSubstr("weights and morph")));
+    EXPECT_THAT(faults("\"material\":0", "\"material\":7"), Contains(HasSubstr("materials")));
+    EXPECT_THAT(faults("\"byteOffset\":0", "\"byteOffset\":2"), Not(IsEmpty()));
+    EXPECT_THAT(faults("image/png", "image/jpg"), Contains("an image is no PNG"));
+}
+
+TEST(Glb, the_files_pass_the_khronos_validator) {
+    const TemporaryFolder folder;
     write_glb(folder / "textured.glb", textured_scene());
-    write_glb(folder / "two.glb", two);
+    write_glb(folder / "two.glb", scene_of_two());
     const auto command =
         fmt::format("node '{}' '{}' '{}' > '{}' 2>&1", MIMIK_GLTF_VALIDATE, (folder / "textured.glb").string(),
                     (folder / "two.glb").string(), (folder / "report.txt").string());

@@ -4,6 +4,8 @@
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/mesh_io.h"
+#include "geometry/texture_path.h"
+#include "geometry/vertex_attributes.h"
 #include "tests/geometry/files_testing.h"
 
 namespace mimik::geometry {
@@ -324,7 +326,7 @@ TEST(Obj, errors_name_the_file_the_line_and_the_value) {
 TEST(MeshFiles, a_texture_name_that_leads_out_of_the_folder_is_refused) {
     for (const auto* name : {"../secret.png", "/etc/passwd", "a/b.png", "..\\x.png", "C:\\x.png", "..", "a\nb.png"})
         EXPECT_THAT(message_of([&] { (void)checked_texture_name(name, "scan.obj"); }),
-                    HasSubstr("it must be a bare file name"))
+                    HasSubstr("scan.obj: texture name is"))
             << name;
     EXPECT_EQ(checked_texture_name("./face 1.png", "scan.obj"), "face 1.png");
 
@@ -372,6 +374,34 @@ TEST(MeshFiles, parts_that_do_not_fit_together_are_not_written) {
                     m.attributes.push_back({"x", 1, std::vector<double>(7)});
                 }),
                 HasSubstr("that name is taken"));
+}
+
+TEST(MeshFiles, two_attributes_of_one_name_are_written_in_no_format_and_setting_one_replaces_it) {
+    const TemporaryFolder folder;
+    auto mesh = odd_mesh();
+    mesh.attributes.push_back({"d", 1, std::vector<double>(7, 1.0)});
+    set_attribute(mesh, {"d", 1, std::vector<double>(7, 2.0)});
+    write_mesh(folder / "once.vtp", mesh);
+    const auto read = read_mesh(folder / "once.vtp");
+    ASSERT_EQ(read.attributes.size(), mesh.attributes.size());
+    EXPECT_EQ(read.attributes.back().values.front(), 2.0);
+    mesh.attributes.push_back(mesh.attributes.back());
+    for (const auto* name : {"a.ply", "a.vtp", "a.obj", "a.stl"}) {
+        EXPECT_THAT(message_of([&] { write_mesh(folder / name, mesh); }), HasSubstr("two attributes are called 'd'"));
+        EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+    }
+}
+
+TEST(MeshFiles, a_texture_may_lie_in_a_folder_below_the_mesh_and_nowhere_else) {
+    const TemporaryFolder folder;
+    write_atomically(folder / "a.obj", "mtllib mat/./a.mtl\nv 0 0 0\n");
+    write_atomically(folder / "mat/a.mtl", "newmtl x\nmap_Kd tex/skin 1.png\n");
+    EXPECT_EQ(read_mesh_file(folder / "a.obj").texture_file, "mat/tex/skin 1.png");
+    EXPECT_EQ(checked_texture_path("./tex/x.png", "m"), "tex/x.png");
+    for (const auto* name : {"/x.png", "tex/../x.png", "..", "tex//x.png", "tex/", "C:/x.png", "tex\\x.png", "", "."})
+        EXPECT_THAT(message_of([&] { (void)checked_texture_path(name, "m.obj"); }), HasSubstr("m.obj: texture name is"))
+            << name;
+    EXPECT_THAT(message_of([&] { (void)checked_texture_name("tex/x.png", "m.obj"); }), HasSubstr("bare file name"));
 }
 
 TEST(MeshFiles, units_are_known_by_name) {

@@ -89,14 +89,29 @@ TEST_F(Warp, of_a_mesh_keeps_faces_and_texture_coordinates) {
     EXPECT_EQ(read_mesh(at("out.stl")).faces.size(), 2U);
 }
 
-TEST_F(Warp, takes_the_texture_image_along_to_another_folder) {
+TEST_F(Warp, takes_the_texture_image_along_under_a_name_that_no_other_image_has) {
     write_atomically(at("in.obj"),
                      "mtllib in.mtl\nv 2 2 2\nv 4 0 0\nv 4 4 4\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl skin\nf 1/1 2/2 3/3\n");
-    write_atomically(at("in.mtl"), "newmtl skin\nmap_Kd skin.png\n");
-    write_atomically(at("skin.png"), "not decoded here");
-    (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("elsewhere/out.obj"));
-    EXPECT_EQ(read_text(at("elsewhere/skin.png")), "not decoded here");
-    EXPECT_EQ(read_mesh_file(at("elsewhere/out.obj")).texture_file, "skin.png");
+    write_atomically(at("in.mtl"), "newmtl skin\nmap_Kd tex/skin.png\n");
+    write_atomically(at("tex/skin.png"), "not decoded here");
+    write_atomically(at("elsewhere/skin.png"), "somebody else's");
+    for (const auto* name : {"elsewhere/out.obj", "elsewhere/out.ply"}) {
+        (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at(name));
+        EXPECT_EQ(read_mesh_file(at(name)).texture_file, "out_texture.png") << name;
+    }
+    EXPECT_EQ(read_text(at("elsewhere/out_texture.png")), "not decoded here");
+    EXPECT_EQ(read_text(at("elsewhere/skin.png")), "somebody else's");
+    std::filesystem::remove(at("tex/skin.png"));
+    (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("bare.obj"));
+    EXPECT_EQ(read_mesh_file(at("bare.obj")).texture_file, "");
+}
+
+TEST_F(Warp, of_a_point_whose_place_has_no_number_is_refused_by_its_name) {
+    write_atomically(at("in.csv"), "name,x,y,z\nnear,2,2,2\nfar,1e200,0,0\n");
+    EXPECT_THAT(
+        message_of<NumericalError>([&] { (void)warp_file(at("a.csv"), at("b.csv"), at("in.csv"), at("out.csv")); }),
+        AllOf(HasSubstr("in.csv"), HasSubstr("'far' at (1e+200, 0, 0)")));
+    EXPECT_FALSE(std::filesystem::exists(at("out.csv")));
 }
 
 TEST_F(Warp, every_name_without_a_partner_is_listed) {

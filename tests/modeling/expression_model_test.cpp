@@ -5,6 +5,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "modeling/average_fingerprint.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
 
@@ -205,6 +206,58 @@ TEST_F(ExpressionModelTest, a_model_file_reads_back_bit_for_bit) {
     }
     write_expression_model(copy, read);
     EXPECT_EQ(geometry::read_text(copy), geometry::read_text(file));
+    EXPECT_FALSE(read.provenance);
+}
+
+TEST_F(ExpressionModelTest, a_stored_model_says_how_it_came_about_and_what_differs_from_here) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "AU12.json", copy = folder.path() / "copy.json";
+    auto model = measure(*source_);
+    model.unusable_scans = {"bs009_LFAU_12_0: cut"};
+    ModelOptions options;
+    options.kernel = geometry::SplineKernel::r2_log_r2;
+    options.smoothing = 0.1;  // no exact double: 17 digits keep it
+    options.anchors = false;
+    model.provenance = ModelProvenance{
+        "1.2.3", "default", options, "mine.toml", builtin_catalogue().content_hash(), average_fingerprint(*average_)};
+    write_expression_model(file, model);
+    const auto read = read_expression_model(file);
+    EXPECT_EQ(read.provenance, model.provenance);
+    EXPECT_EQ(read.unusable_scans, model.unusable_scans);
+    write_expression_model(copy, read);
+    EXPECT_EQ(geometry::read_text(copy), geometry::read_text(file));
+    auto here = *model.provenance;
+    here.mimik_version = "1.2.4";
+    here.catalogue = "built-in catalogue";  // the same content by another name
+    EXPECT_THAT(differences(*read.provenance, here), testing::IsEmpty());
+    here.options = {};
+    here.average_face = "0";
+    EXPECT_THAT(differences(*read.provenance, here),
+                testing::ElementsAre("kernel r2logr, here r", "smoothing 0.1, here 30", "anchors off, here on",
+                                     HasSubstr("average face")));
+    EXPECT_EQ(variant_suffix(options, {}), "_r2logr_no-anchors");
+    EXPECT_EQ(variant_suffix({}, {}), "");
+}
+
+TEST_F(ExpressionModelTest, a_file_that_is_no_model_to_animate_is_refused_by_name) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "bad.json";
+    const auto refused = [&](const auto& change) {
+        auto model = measure(*source_);
+        change(model);
+        write_expression_model(file, model);
+        return message_of<InputError>([&] { (void)read_expression_model(file); });
+    };
+    EXPECT_THAT(refused([](ExpressionModel& m) { m.points.clear(); }), HasSubstr("bad.json: there is no point"));
+    EXPECT_THAT(refused([](ExpressionModel& m) { m.points.push_back(m.points.front()); }),
+                testing::AllOf(HasSubstr("bad.json: point 'AU12."), HasSubstr("twice")));
+    EXPECT_THAT(refused([](ExpressionModel& m) { m.mouth_width_mm = 0; }), HasSubstr("bad.json: mouth_width_mm is 0"));
+    write_expression_model(file, measure(*source_));
+    auto text = geometry::read_text(file);
+    text.replace(text.find("mimik expression model"), 22, "a list of things to do");
+    geometry::write_atomically(file, text);
+    EXPECT_THAT(message_of<InputError>([&] { (void)read_expression_model(file); }),
+                HasSubstr("bad.json: it is 'a list of things to do'"));
 }
 
 TEST_F(ExpressionModelTest, a_damaged_model_file_is_named) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ number = 12
 name = "Lip Corner Puller"
 region = "lower"
 sides = "paired"
-muscles = [{ name = "zygomaticus major", source = "cheek bone to mouth corner" }]
+muscles = [{ name = "zygomaticus major", source = "cheek bone to mouth corner", reference = "FACS" }]
 arkit = "mouthSmile"
 zone = [{ at = { mouth_corner = 1.0 }, radii = [0.3, 0.4] }]
 points = [
@@ -170,10 +171,45 @@ TEST(CatalogueLinter, finds_a_point_that_mirrors_on_to_itself) {
         HasSubstr("fall together on the midline"));
 }
 
-TEST(CatalogueLinter, finds_a_sided_landmark_that_would_have_no_mirror_image) {
+TEST(CatalogueLinter, finds_a_landmark_of_one_side_wherever_it_stands) {
+    const auto message = HasSubstr("no mirror image: write 'nose_wing'");
     EXPECT_THAT(
         only_finding(catalogue_with(R"(  { name = "x", kind = "wrinkle", at = { nose_wing_left = 1.0 } },)"), 12),
-        HasSubstr("leave '_left' and '_right' out"));
+        message);
+    // An offset does not make it one that can be mirrored.
+    EXPECT_THAT(only_finding(catalogue_with(R"(  { name = "x", kind = "wrinkle", at = { nose_wing_left = 1.0 }, )"
+                                            R"(offset = [0.1, 0.0] },)"),
+                             12),
+                message);
+    auto zone = catalogue_with("");
+    zone.replace(zone.find("zone = [{ at = { mouth_corner"), 29, "zone = [{ at = { mouth_corner_left");
+    EXPECT_THAT(only_finding(zone, 9), HasSubstr("write 'mouth_corner', or"));
+    const auto both = [](const char* right) {
+        return catalogue_with(fmt::format(
+            R"(  {{ name = "x", kind = "wrinkle", at = {{ nose_wing_left = 0.5, nose_wing_right = {} }} }},)", right));
+    };
+    EXPECT_THAT(lint_catalogue(both("0.5")), IsEmpty());
+    EXPECT_EQ(lint_catalogue(both("0.6")).size(), 3U);  // neither weight is the other's, and they add up to 1.1
+}
+
+TEST(CatalogueLinter, knows_the_shapes_of_arkit) {
+    const auto with = [](const std::string& line) {
+        auto text = catalogue_with("");
+        return text.replace(text.find("arkit = \"mouthSmile\""), 20, line);
+    };
+    EXPECT_THAT(only_finding(with("arkit = \"mouthSmail\""), 8), HasSubstr("'mouthSmailLeft' and 'mouthSmailRight'"));
+    EXPECT_THAT(only_finding(with("arkit = \"jawOpen\""), 8), HasSubstr("'jawOpenLeft'"));
+    EXPECT_THAT(only_finding(with("arkit_whole = \"mouthSmile\""), 8), HasSubstr("no blendshape 'mouthSmile'"));
+    EXPECT_THAT(lint_catalogue(with("arkit_whole = \"jawOpen\"")), IsEmpty());
+}
+
+TEST(CatalogueLinter, wants_a_published_reference_of_every_muscle) {
+    const auto with = [](const std::string& reference) {
+        auto text = catalogue_with("");
+        return text.replace(text.find(", reference = \"FACS\""), 20, reference);
+    };
+    EXPECT_THAT(only_finding(with(""), 7), HasSubstr("'reference' is missing"));
+    EXPECT_THAT(only_finding(with(", reference = \" \""), 7), HasSubstr("reference of 'zygomaticus major' is empty"));
 }
 
 TEST(CatalogueLinter, finds_a_point_on_the_half_that_is_made_by_mirroring) {

@@ -82,13 +82,26 @@ TEST_F(SourceExpression, subjects_who_must_not_be_shown_are_no_source_and_in_no_
     EXPECT_THAT(mean.sources, ElementsAre("bs002_N_N_0", "bs002_LFAU_12_0"));
 }
 
-TEST_F(SourceExpression, a_damaged_scan_leaves_the_mean_of_the_rest_with_a_word_about_it) {
+TEST_F(SourceExpression, a_damaged_scan_leaves_the_mean_of_the_rest_and_is_kept_apart_from_points_left_out) {
     const database::TemporaryFolder folder;
     const auto workspace = test::analytic_workspace(folder.path());
     geometry::write_atomically(workspace.root() / "faces" / "bs000" / "bs000_LFAU_12_0.json", "{}");
     const auto mean = model_from_workspace(workspace, builtin_catalogue(), "12", {"mean", {}});
     EXPECT_EQ(mean.sources.size(), 4U);
-    EXPECT_THAT(mean.left_out, testing::Contains(HasSubstr("bs000_LFAU_12_0")));
+    EXPECT_THAT(mean.unusable_scans, ElementsAre(HasSubstr("bs000_LFAU_12_0")));
+    EXPECT_THAT(mean.left_out, testing::Not(testing::Contains(HasSubstr("bs000_LFAU_12_0"))));
+}
+
+TEST_F(SourceExpression, the_thesis_has_no_mean_and_that_is_said_before_any_work) {
+    const ExpressionSource mean{"mean", {"bs001"}};
+    const auto words = testing::AllOf(HasSubstr("the thesis method has no mean"), HasSubstr("one of bs000, bs002"));
+    EXPECT_THAT(message_of<InputError>([&] { check_source(*workspace_, mean, ModelOptions::thesis()); }), words);
+    EXPECT_THAT(message_of<InputError>([&] {
+                    (void)model_from_workspace(*workspace_, builtin_catalogue(), "12", mean, ModelOptions::thesis());
+                }),
+                words);
+    EXPECT_NO_THROW(check_source(*workspace_, mean, {}));
+    EXPECT_NO_THROW(check_source(*workspace_, {"bs000", {}}, ModelOptions::thesis()));
 }
 
 }  // namespace

@@ -156,6 +156,29 @@ TEST_F(WorkspaceTest, a_database_is_never_written_into_but_a_folder_of_its_own_b
     check_workspace_place(database, folder_.path() / "db2");
 }
 
+TEST_F(WorkspaceTest, a_folder_that_takes_no_faces_is_found_out_before_any_scan_is_read) {
+    const auto database = database::open_database(database_);
+    geometry::write_atomically(folder_.path() / "file", "mine");
+    for (const auto& scan : database.scans) fs::resize_file(scan.scan_file, 0);  // reading any would fail otherwise
+    EXPECT_THAT(message_of<InputError>([&] { (void)preprocess_database(database, folder_.path() / "file", quick()); }),
+                HasSubstr("file: is a file; give a folder"));
+    EXPECT_THAT(
+        message_of<InputError>([&] { (void)preprocess_database(database, folder_.path() / "file" / "x", quick()); }),
+        HasSubstr("its folder cannot be made"));
+    EXPECT_EQ(geometry::read_text(folder_.path() / "file"), "mine");
+}
+
+TEST_F(WorkspaceTest, a_scan_without_landmarks_is_told_which_file_it_lacks) {
+    fs::remove(database_ / "bs002" / "bs002_N_N_0.lm3");
+    fs::remove(database_ / "bs001" / "bs001_LFAU_12_0.lm3");
+    const auto report = preprocess();
+    ASSERT_EQ(report.failures.size(), 2U);
+    EXPECT_THAT(report.failures[0].reason,
+                testing::AllOf(HasSubstr("no landmark file beside"),
+                               HasSubstr("bs001_LFAU_12_0.bnt; put bs001_LFAU_12_0.lm3 there")));
+    EXPECT_THAT(report.failures[1].reason, HasSubstr("put bs002_N_N_0.lm3 there"));
+}
+
 TEST_F(WorkspaceTest, a_workspace_knows_whether_its_database_had_a_truth) {
     (void)preprocess();
     EXPECT_FALSE(Workspace(workspace_).made_with_truth());
