@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "geometry/errors.h"
+#include "geometry/text.h"
 
 namespace mimik::database {
 namespace {
@@ -135,11 +136,20 @@ std::optional<ScanId> parse_scan_name(std::string_view stem) {
     const auto parts = split(stem, '_');
     if (parts.size() != 4 || std::any_of(parts.begin(), parts.end(), [](auto part) { return part.empty(); }))
         return std::nullopt;
+    if (parts[0].front() == '.' || std::any_of(stem.begin(), stem.end(), [](unsigned char c) {
+            return c == '/' || c == '\\' || c < 0x20 || c == 0x7F;
+        }))
+        return std::nullopt;
     const auto last = parts[3];
     if (last.size() > 6 || !std::all_of(last.begin(), last.end(), digit)) return std::nullopt;
     ScanId id{std::string(parts[0]), std::string(parts[1]), std::string(parts[2]), 0};
     std::from_chars(last.data(), last.data() + last.size(), id.repetition);
     return id;
+}
+
+ScanId scan_id_from(std::string_view stem) {
+    if (auto id = parse_scan_name(stem)) return *id;
+    throw InputError(fmt::format("{} is no scan name such as bs000_LFAU_12_0", geometry::in_quotes(stem)));
 }
 
 std::optional<ScanId> parse_expression(std::string_view text) {

@@ -35,8 +35,11 @@ struct ScanId {
     bool operator==(const ScanId& other) const { return std::is_eq(*this <=> other); }
 };
 
-/// Four fields separated by '_'; empty if the name is not of that form.
+/// Four fields separated by '_'; empty if the name is not of that form. No field leads to another folder: names become
+/// parts of paths.
 [[nodiscard]] std::optional<ScanId> parse_scan_name(std::string_view stem);
+/// The same. @throws InputError showing the name that is none.
+[[nodiscard]] ScanId scan_id_from(std::string_view stem);
 
 /// Group and code (subject and repetition left empty) from what people write for an expression: "N", "neutral",
 /// "LFAU_12", "AU12", "au12_L", "12L", "12LW", "AU22+AU25", "A22A25", "HAPPY". What is none of these is kept, in upper

@@ -1,5 +1,6 @@
 #include "geometry/file.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -16,8 +17,8 @@
 namespace mimik::geometry {
 namespace {
 
-template <class Container>
-Container read_whole(const std::filesystem::path& file, std::uintmax_t max_bytes) {
+/// @throws InputError unless it is a regular file.
+std::uintmax_t size_of(const std::filesystem::path& file) {
     std::error_code error;
     const auto status = std::filesystem::status(file, error);
     if (!std::filesystem::exists(status))
@@ -29,10 +30,11 @@ Container read_whole(const std::filesystem::path& file, std::uintmax_t max_bytes
                                      file.string()));
     const auto size = std::filesystem::file_size(file, error);
     if (error) throw InputError(fmt::format("{}: its size cannot be read ({})", file.string(), error.message()));
-    if (size > max_bytes)
-        throw InputError(
-            fmt::format("{}: has {} bytes, more than the {} that such a file may have; is it the right file?",
-                        file.string(), size, max_bytes));
+    return size;
+}
+
+template <class Container>
+Container read_first(const std::filesystem::path& file, std::uintmax_t size) {
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(fmt::format("{}: cannot be opened ({})", file.string(), std::strerror(errno)));
@@ -42,6 +44,16 @@ Container read_whole(const std::filesystem::path& file, std::uintmax_t max_bytes
         throw InputError(fmt::format("{}: only {} of its {} bytes could be read; is another program writing it?",
                                      file.string(), stream.gcount(), size));
     return content;
+}
+
+template <class Container>
+Container read_whole(const std::filesystem::path& file, std::uintmax_t max_bytes) {
+    const auto size = size_of(file);
+    if (size > max_bytes)
+        throw InputError(
+            fmt::format("{}: has {} bytes, more than the {} that such a file may have; is it the right file?",
+                        file.string(), size, max_bytes));
+    return read_first<Container>(file, size);
 }
 
 /// Removes the temporary unless it was renamed away.
@@ -69,6 +81,10 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file, std::uin
 
 std::string read_text(const std::filesystem::path& file, std::uintmax_t max_bytes) {
     return read_whole<std::string>(file, max_bytes);
+}
+
+std::string read_text_head(const std::filesystem::path& file, std::size_t max_bytes) {
+    return read_first<std::string>(file, std::min<std::uintmax_t>(size_of(file), max_bytes));
 }
 
 void write_atomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {

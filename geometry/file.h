@@ -18,6 +18,10 @@ namespace mimik::geometry {
 [[nodiscard]] std::string read_text(const std::filesystem::path& file,
                                     std::uintmax_t max_bytes = std::uintmax_t{1} << 28);
 
+/// The first `max_bytes` bytes of a file that may be longer. @throws InputError if it is missing, unreadable or no
+/// regular file.
+[[nodiscard]] std::string read_text_head(const std::filesystem::path& file, std::size_t max_bytes);
+
 /// Writes to a temporary beside `file`, then renames: nobody ever sees half a file. Folders are made. The stream has
 /// the classic locale. @throws InputError naming the file if it cannot be written.
 void write_atomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);

@@ -2,7 +2,6 @@
 
 #include <csetjmp>
 #include <cstring>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <png.h>
@@ -181,19 +180,18 @@ Image read_image(const std::filesystem::path& file) {
 }
 
 std::array<int, 2> image_size(const std::filesystem::path& file) {
-    std::array<std::uint8_t, 33> head{};
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw InputError(fmt::format("{}: cannot be opened; is the path right?", file.string()));
-    stream.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
+    const auto text = read_text_head(file, 33);
+    const std::span head(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
     if (is_jpeg(head)) return jpeg_size(read_bytes(file), file.string());  // its header may stand behind a thumbnail
-    const auto header =
-        parse_png_header(std::span(head).first(static_cast<std::size_t>(stream.gcount())), file.string());
+    const auto header = parse_png_header(head, file.string());
     return {static_cast<int>(header.width), static_cast<int>(header.height)};
 }
 
 std::vector<std::uint8_t> read_as_png(const std::filesystem::path& file) {
     auto bytes = read_bytes(file);
-    return is_jpeg(bytes) ? encode_png(decode_jpeg(bytes, file.string())) : bytes;
+    if (is_jpeg(bytes)) return encode_png(decode_jpeg(bytes, file.string()));
+    (void)parse_png_header(bytes, file.string());
+    return bytes;
 }
 
 }  // namespace mimik::geometry

@@ -10,11 +10,13 @@
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/json_values.h"
+#include "geometry/landmark_io.h"
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
+#include "geometry/text.h"
 #include "modeling/face_regions.h"
 #include "preprocessing/control_pairs.h"
-#include "preprocessing/json_values.h"
 
 namespace mimik::modeling {
 
@@ -278,22 +280,26 @@ nlohmann::json provenance_to_json(const ModelProvenance& provenance) {
 }
 
 ModelProvenance provenance_from_json(const nlohmann::json& json) {
+    using geometry::read_field;
     ModelProvenance provenance;
-    provenance.mimik_version = json.at("mimik").get<std::string>();
-    provenance.method = json.at("method").get<std::string>();
+    provenance.mimik_version = read_field<std::string>(json, "mimik");
+    provenance.method = read_field<std::string>(json, "method");
     auto& options = provenance.options;
-    options.frame = json.at("frame").get<std::string>() == "affine" ? Frame::affine : Frame::similarity;
-    options.kernel =
-        json.at("kernel").get<std::string>() == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
-    options.smoothing = json.at("smoothing").get<double>();
-    options.anchors = json.at("anchors").get<bool>();
-    options.wrinkle_points = json.at("wrinkle_points").get<bool>();
-    options.coverage_points = json.at("coverage_points").get<bool>();
-    options.snap_to_vertices = json.at("snap_to_vertices").get<bool>();
-    options.place_on_average = json.at("place_on_average").get<bool>();
-    provenance.catalogue = json.at("catalogue").at("name").get<std::string>();
-    provenance.catalogue_hash = json.at("catalogue").at("hash").get<std::string>();
-    provenance.average_face = json.at("average_face").get<std::string>();
+    options.frame = read_field<std::string>(json, "frame") == "affine" ? Frame::affine : Frame::similarity;
+    options.kernel = read_field<std::string>(json, "kernel") == "r" ? geometry::SplineKernel::r
+                                                                    : geometry::SplineKernel::r2_log_r2;
+    options.smoothing = read_field<double>(json, "smoothing");
+    options.anchors = read_field<bool>(json, "anchors");
+    options.wrinkle_points = read_field<bool>(json, "wrinkle_points");
+    options.coverage_points = read_field<bool>(json, "coverage_points");
+    options.snap_to_vertices = read_field<bool>(json, "snap_to_vertices");
+    options.place_on_average = read_field<bool>(json, "place_on_average");
+    read_field(json, "catalogue", [&](const nlohmann::json& catalogue) {
+        provenance.catalogue = read_field<std::string>(catalogue, "name");
+        provenance.catalogue_hash = read_field<std::string>(catalogue, "hash");
+        return 0;
+    });
+    provenance.average_face = read_field<std::string>(json, "average_face");
     return provenance;
 }
 
@@ -337,8 +343,8 @@ void check_expression_model(const ExpressionModel& model) {
     }
 }
 
-void write_expression_model(const std::filesystem::path& file, const ExpressionModel& model) {
-    using preprocessing::to_json;
+std::string encode_expression_model(const ExpressionModel& model) {
+    using geometry::to_json;
     auto points = nlohmann::json::array();
     for (const auto& point : model.points)
         points.push_back({{"name", point.name},
@@ -360,38 +366,53 @@ void write_expression_model(const std::filesystem::path& file, const ExpressionM
                                {"left_out", model.left_out},
                                {"unusable_scans", model.unusable_scans}};
     if (model.provenance) document["provenance"] = provenance_to_json(*model.provenance);
-    geometry::write_atomically(file, preprocessing::json_text(document));
+    return geometry::json_text(document);
 }
 
-ExpressionModel read_expression_model(const std::filesystem::path& file) {
-    return preprocessing::from_json_file<ExpressionModel>(file, [&](const nlohmann::json& document) {
+void write_expression_model(const std::filesystem::path& file, const ExpressionModel& model) {
+    geometry::write_atomically(file, encode_expression_model(model));
+}
+
+ExpressionModel decode_expression_model(std::string_view text, const std::string& name) {
+    using geometry::read_field;
+    constexpr const char* mend = "make the model again with 'mimik model'";
+    return geometry::read_json_document(text, name, mend, [](const nlohmann::json& document) {
         ExpressionModel model;
-        if (const auto kind = document.at("kind").get<std::string>(); kind != model_file_kind)
-            throw InputError(fmt::format("it is '{}', not '{}'; give a file of 'mimik model'", kind, model_file_kind));
-        model.expression = document.at("expression").get<std::string>();
-        model.moves_upper_face = document.at("moves_upper_face").get<bool>();
-        model.moves_lower_face = document.at("moves_lower_face").get<bool>();
-        const auto frame = document.at("frame").get<std::string>();
+        if (const auto kind = read_field<std::string>(document, "kind"); kind != model_file_kind)
+            throw InputError(fmt::format("it is {}, not '{}'; give a file of 'mimik model'", geometry::in_quotes(kind),
+                                         model_file_kind));
+        model.expression = read_field<std::string>(document, "expression");
+        model.moves_upper_face = read_field<bool>(document, "moves_upper_face");
+        model.moves_lower_face = read_field<bool>(document, "moves_lower_face");
+        const auto frame = read_field<std::string>(document, "frame");
         if (frame != "affine" && frame != "similarity")
-            throw InputError(fmt::format("{}: frame '{}' is neither affine nor similarity", file.string(), frame));
+            throw InputError(fmt::format("frame {} is neither affine nor similarity", geometry::in_quotes(frame)));
         model.frame = frame == "affine" ? Frame::affine : Frame::similarity;
-        model.sources = document.at("sources").get<std::vector<std::string>>();
-        model.mouth_width_mm = document.at("mouth_width_mm").get<double>();
-        model.landmarks = preprocessing::landmarks_from_json(document.at("landmarks"));
-        for (const auto& point : document.at("points"))
-            model.points.push_back({point.at("name").get<std::string>(),
-                                    parse_control_kind(point.at("kind").get<std::string>()),
-                                    preprocessing::vector_from_json(point.at("position_mm")),
-                                    preprocessing::vector_from_json(point.at("displacement_mm")),
-                                    point.at("projection_mm").get<double>()});
-        model.left_out = document.at("left_out").get<std::vector<std::string>>();
+        model.sources = read_field<std::vector<std::string>>(document, "sources");
+        model.mouth_width_mm = read_field<double>(document, "mouth_width_mm");
+        model.landmarks = geometry::landmarks_from_json(document, "landmarks");
+        geometry::read_list(document, "points", [&](const nlohmann::json& point) {
+            if (model.points.size() == geometry::most_landmarks)  // a spline goes through them, too
+                throw InputError(fmt::format("more than the {} points that are read", geometry::most_landmarks));
+            model.points.push_back({read_field<std::string>(point, "name"),
+                                    parse_control_kind(read_field<std::string>(point, "kind")),
+                                    read_field(point, "position_mm", geometry::vector_from_json),
+                                    read_field(point, "displacement_mm", geometry::vector_from_json),
+                                    read_field<double>(point, "projection_mm")});
+        });
+        model.left_out = read_field<std::vector<std::string>>(document, "left_out");
         // Older files have neither.
         if (document.contains("unusable_scans"))
-            model.unusable_scans = document.at("unusable_scans").get<std::vector<std::string>>();
-        if (document.contains("provenance")) model.provenance = provenance_from_json(document.at("provenance"));
+            model.unusable_scans = read_field<std::vector<std::string>>(document, "unusable_scans");
+        if (document.contains("provenance"))
+            model.provenance = read_field(document, "provenance", provenance_from_json);
         check_expression_model(model);
         return model;
     });
+}
+
+ExpressionModel read_expression_model(const std::filesystem::path& file) {
+    return decode_expression_model(geometry::read_text(file, geometry::most_json_bytes), file.string());
 }
 
 }  // namespace mimik::modeling

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/landmarks.h"
@@ -144,5 +145,8 @@ void check_expression_model(const ExpressionModel& model);
 /// JSON, schema 1: readable, 17 digits.
 void write_expression_model(const std::filesystem::path& file, const ExpressionModel& model);
 [[nodiscard]] ExpressionModel read_expression_model(const std::filesystem::path& file);
+/// The same in memory; `name` stands for the file. @throws InputError naming file and field.
+[[nodiscard]] std::string encode_expression_model(const ExpressionModel& model);
+[[nodiscard]] ExpressionModel decode_expression_model(std::string_view text, const std::string& name);
 
 }  // namespace mimik::modeling

@@ -11,11 +11,12 @@
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/json_values.h"
 #include "geometry/parallel.h"
 #include "geometry/surface_index.h"
 #include "preprocessing/control_pairs.h"
-#include "preprocessing/json_values.h"
 #include "preprocessing/normalisation.h"
+#include "preprocessing/workspace_json.h"
 
 namespace mimik::preprocessing {
 
@@ -337,26 +338,33 @@ void write_average_face(const std::filesystem::path& stem, const AverageFace& av
         {"cols", average.grid.cols},
         {"units", "mm"},
         {"frame", "average: nose tip at the origin, +x subject's left, +y up, +z out of the face"},
-        {"landmarks", to_json(average.landmarks)},
+        {"landmarks", geometry::to_json(average.landmarks)},
         {"scans", average.scans},
         {"consensus_rms_mm", average.consensus_rms_mm},
         {"fingerprint", fingerprint}};
-    geometry::write_atomically(json_file, json_text(document));
+    geometry::write_atomically(json_file, geometry::json_text(document));
+}
+
+AverageFace decode_average_face(std::string_view text, const std::string& name, std::string* fingerprint) {
+    return geometry::read_json_document(text, name, damaged_file_mend, [&](const nlohmann::json& document) {
+        AverageFace average;
+        average.landmarks = geometry::landmarks_from_json(document, "landmarks");
+        average.scans = geometry::read_field<std::vector<std::string>>(document, "scans");
+        average.consensus_rms_mm = geometry::read_field<double>(document, "consensus_rms_mm");
+        if (fingerprint) *fingerprint = geometry::read_field<std::string>(document, "fingerprint");
+        average.grid = grid_size_from_json(document);
+        return average;
+    });
 }
 
 AverageFace read_average_face(const std::filesystem::path& stem, std::string* fingerprint) {
     auto mesh_file = stem, json_file = stem;
     mesh_file += ".ply";
     json_file += ".json";
-    return from_json_file<AverageFace>(json_file, [&](const nlohmann::json& document) {
-        AverageFace average;
-        average.landmarks = landmarks_from_json(document.at("landmarks"));
-        average.scans = document.at("scans").get<std::vector<std::string>>();
-        average.consensus_rms_mm = document.at("consensus_rms_mm").get<double>();
-        if (fingerprint) *fingerprint = document.at("fingerprint").get<std::string>();
-        average.grid = read_grid(mesh_file, document.at("rows").get<int>(), document.at("cols").get<int>());
-        return average;
-    });
+    auto average =
+        decode_average_face(geometry::read_text(json_file, geometry::most_json_bytes), json_file.string(), fingerprint);
+    average.grid = read_grid(mesh_file, average.grid.rows, average.grid.cols);
+    return average;
 }
 
 }  // namespace mimik::preprocessing

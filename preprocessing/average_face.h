@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/landmarks.h"
@@ -46,5 +47,8 @@ struct AverageFace {
 
 void write_average_face(const std::filesystem::path& stem, const AverageFace& average, const std::string& fingerprint);
 [[nodiscard]] AverageFace read_average_face(const std::filesystem::path& stem, std::string* fingerprint = nullptr);
+/// What stands in the .json; of the grid, its rows and cols alone. `name` stands for the file. @throws InputError.
+[[nodiscard]] AverageFace decode_average_face(std::string_view text, const std::string& name,
+                                              std::string* fingerprint = nullptr);
 
 }  // namespace mimik::preprocessing

@@ -4,19 +4,23 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/json_values.h"
 #include "geometry/mesh_io.h"
-#include "preprocessing/json_values.h"
+#include "preprocessing/workspace_json.h"
 
 namespace mimik::preprocessing {
 
+using geometry::read_field;
 using geometry::VertexOrigin;
 using nlohmann::json;
 
 namespace {
+
+// As many as gridding makes.
+constexpr std::size_t most_grid_lines = 20000;
 
 std::filesystem::path with_suffix(const std::filesystem::path& stem, const char* suffix) {
     auto file = stem;
@@ -47,32 +51,45 @@ void write_grid(const std::filesystem::path& file, const geometry::QuadGrid& gri
     geometry::write_mesh(file, mesh);
 }
 
-geometry::QuadGrid read_grid(const std::filesystem::path& file, int rows, int cols) {
-    auto mesh = geometry::read_mesh(file);
+geometry::QuadGrid to_grid(geometry::Mesh mesh, int rows, int cols, const std::string& name) {
     geometry::QuadGrid grid;
     grid.rows = rows;
     grid.cols = cols;
-    if (rows < 2 || cols < 2 ||
-        mesh.vertices_mm.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))
-        throw InputError(fmt::format("{}: {} vertices where its .json says {} x {}; run 'mimik preprocess' again",
-                                     file.string(), mesh.vertices_mm.size(), rows, cols));
+    const auto vertices = mesh.vertices_mm.size();
+    if (rows < 2 || cols < 2 || vertices != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))
+        throw InputError(fmt::format("{}: {} vertices where its .json says {} x {}; run 'mimik preprocess' again", name,
+                                     vertices, rows, cols));
+    if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != vertices)
+        throw InputError(fmt::format("{}: {} texture coordinates for {} vertices; run 'mimik preprocess' again", name,
+                                     mesh.texture_coordinates.size(), vertices));
     grid.vertices_mm = std::move(mesh.vertices_mm);
     grid.texture_coordinates = std::move(mesh.texture_coordinates);
     for (const auto& attribute : mesh.attributes)
         if (attribute.name == "origin")
             for (const double value : attribute.values) {
                 if (!(value == 0 || value == 1 || value == 2))
-                    throw InputError(fmt::format("{}: origin {} is none of 0, 1, 2", file.string(), value));
+                    throw InputError(fmt::format("{}: origin {} is none of 0, 1, 2", name, value));
                 grid.origin.push_back(static_cast<VertexOrigin>(static_cast<int>(value)));
             }
     if (grid.origin.size() != grid.size())
-        throw InputError(fmt::format("{}: property 'origin' is missing; run 'mimik preprocess' again", file.string()));
+        throw InputError(fmt::format("{}: property 'origin' is missing; run 'mimik preprocess' again", name));
     for (std::size_t v = 0; v < grid.size(); ++v)
         if (!grid.inside(v)) {  // as gridding leaves them
             grid.vertices_mm[v].z() = std::numeric_limits<double>::quiet_NaN();
             if (!grid.texture_coordinates.empty())
                 grid.texture_coordinates[v].setConstant(std::numeric_limits<double>::quiet_NaN());
         }
+    return grid;
+}
+
+geometry::QuadGrid read_grid(const std::filesystem::path& file, int rows, int cols) {
+    return to_grid(geometry::read_mesh(file), rows, cols, file.string());
+}
+
+geometry::QuadGrid grid_size_from_json(const json& document) {
+    geometry::QuadGrid grid;
+    grid.rows = static_cast<int>(geometry::whole_number_below(most_grid_lines + 1, document.at("rows"), "rows"));
+    grid.cols = static_cast<int>(geometry::whole_number_below(most_grid_lines + 1, document.at("cols"), "cols"));
     return grid;
 }
 
@@ -88,38 +105,42 @@ void write_face(const std::filesystem::path& stem, const Face& face) {
         {"cols", face.grid.cols},
         {"units", "mm"},
         {"frame", "scanner: +x subject's left, +y up, +z out of the face"},
-        {"landmarks", to_json(face.landmarks)},
-        {"snapped_landmarks", to_json(face.snapped_landmarks)},
+        {"landmarks", geometry::to_json(face.landmarks)},
+        {"snapped_landmarks", geometry::to_json(face.snapped_landmarks)},
         {"texture_file", face.texture_file.string()},
-        {"neutral_from_scan", to_json(face.neutral_from_scan)},
-        {"average_from_scan", to_json(face.average_from_scan)},
-        {"average_from_scan_affine", to_json(face.average_from_scan_affine)},
+        {"neutral_from_scan", geometry::to_json(face.neutral_from_scan)},
+        {"average_from_scan", geometry::to_json(face.average_from_scan)},
+        {"average_from_scan_affine", geometry::to_json(face.average_from_scan_affine)},
         {"alignment_rms_mm", face.alignment_rms_mm},
         {"remarks", face.remarks},
     };
-    geometry::write_atomically(with_suffix(stem, ".json"), json_text(document));
+    geometry::write_atomically(with_suffix(stem, ".json"), geometry::json_text(document));
+}
+
+Face decode_face(std::string_view text, const std::string& name) {
+    return geometry::read_json_document(text, name, damaged_file_mend, [](const json& document) {
+        Face face;
+        face.id = read_field(document, "scan",
+                             [](const json& value) { return database::scan_id_from(value.get<std::string>()); });
+        face.sex = read_field<std::string>(document, "sex");
+        face.landmarks = geometry::landmarks_from_json(document, "landmarks");
+        face.snapped_landmarks = geometry::landmarks_from_json(document, "snapped_landmarks");
+        face.texture_file = read_field<std::string>(document, "texture_file");
+        face.neutral_from_scan = read_field(document, "neutral_from_scan", geometry::transform_from_json);
+        face.average_from_scan = read_field(document, "average_from_scan", geometry::transform_from_json);
+        face.average_from_scan_affine = read_field(document, "average_from_scan_affine", geometry::transform_from_json);
+        face.alignment_rms_mm = read_field<double>(document, "alignment_rms_mm");
+        face.remarks = read_field<std::vector<std::string>>(document, "remarks");
+        face.grid = grid_size_from_json(document);
+        return face;
+    });
 }
 
 Face read_face(const std::filesystem::path& stem) {
     const auto file = with_suffix(stem, ".json");
-    return from_json_file<Face>(file, [&](const json& document) {
-        Face face;
-        const auto id = database::parse_scan_name(document.at("scan").get<std::string>());
-        if (!id) throw InputError(fmt::format("{}: 'scan' is not a scan name", file.string()));
-        face.id = *id;
-        face.sex = document.at("sex").get<std::string>();
-        face.landmarks = landmarks_from_json(document.at("landmarks"));
-        face.snapped_landmarks = landmarks_from_json(document.at("snapped_landmarks"));
-        face.texture_file = document.at("texture_file").get<std::string>();
-        face.neutral_from_scan = transform_from_json(document.at("neutral_from_scan"));
-        face.average_from_scan = transform_from_json(document.at("average_from_scan"));
-        face.average_from_scan_affine = transform_from_json(document.at("average_from_scan_affine"));
-        face.alignment_rms_mm = document.at("alignment_rms_mm").get<double>();
-        face.remarks = document.at("remarks").get<std::vector<std::string>>();
-        face.grid =
-            read_grid(with_suffix(stem, ".ply"), document.at("rows").get<int>(), document.at("cols").get<int>());
-        return face;
-    });
+    auto face = decode_face(geometry::read_text(file, geometry::most_json_bytes), file.string());
+    face.grid = read_grid(with_suffix(stem, ".ply"), face.grid.rows, face.grid.cols);
+    return face;
 }
 
 }  // namespace mimik::preprocessing

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "database/scan_id.h"
@@ -34,10 +35,14 @@ struct Face {
 /// A grid as PLY: double precision, property `origin` (0 outside, 1 measured, 2 bridged), quads of the inside.
 void write_grid(const std::filesystem::path& file, const geometry::QuadGrid& grid);
 [[nodiscard]] geometry::QuadGrid read_grid(const std::filesystem::path& file, int rows, int cols);
+/// The same from a mesh that was read; `name` stands for its file. @throws InputError naming what does not fit.
+[[nodiscard]] geometry::QuadGrid to_grid(geometry::Mesh mesh, int rows, int cols, const std::string& name);
 
 /// `<stem>.ply` (grid, double precision, opens in any viewer) and `<stem>.json` (everything else, schema 1).
 void write_face(const std::filesystem::path& stem, const Face& face);
 /// @throws InputError naming the file and what is wrong.
 [[nodiscard]] Face read_face(const std::filesystem::path& stem);
+/// What stands in the .json; of the grid, its rows and cols alone. `name` stands for the file. @throws InputError.
+[[nodiscard]] Face decode_face(std::string_view text, const std::string& name);
 
 }  // namespace mimik::preprocessing

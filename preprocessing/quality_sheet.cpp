@@ -6,14 +6,13 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/json_values.h"
 #include "geometry/landmark_io.h"
 #include "geometry/mesh_io.h"
 #include "geometry/parallel.h"
-#include "preprocessing/json_values.h"
 
 namespace mimik::preprocessing {
 
@@ -25,6 +24,8 @@ namespace {
 
 /// Part of every mark: raise it when a sheet looks different for the same faces.
 constexpr int sheet_version = 1;
+// A mark names the neutrals of all subjects with sizes and times.
+constexpr std::uintmax_t most_mark_bytes = 1 << 24;
 constexpr std::array<std::uint8_t, 3> measured_colour = {222, 196, 178}, bridged_colour = {112, 172, 104};
 
 /// One subject's sheet and the files beside it.
@@ -40,7 +41,8 @@ public:
         std::error_code error;
         if (!fs::is_regular_file(file(".done"), error)) return false;
         try {
-            return geometry::read_text(file(".done")) == done_text();
+            const auto expected = done_text();
+            return geometry::read_text(file(".done"), expected.size()) == expected;
         } catch (const InputError&) {
             return false;  // unreadable: drawn again
         }
@@ -72,7 +74,7 @@ private:
         auto text = fmt::format("sheet {} png {}\n", sheet_version, error ? 0 : bytes);
         for (const auto& id : scans_) {
             auto mark = workspace_.stem(id);
-            text += id.name() + " " + geometry::read_text(mark += ".done");
+            text += id.name() + " " + geometry::read_text(mark += ".done", most_mark_bytes);
         }
         return text;
     }
@@ -115,7 +117,7 @@ private:
             panels.push_back({{"mesh", id.name() + ".ply"},
                               {"landmarks", id.name() + ".csv"},
                               {"caption", caption(face, id == first)},
-                              {"centre_mm", to_json(centre_mm)}});
+                              {"centre_mm", geometry::to_json(centre_mm)}});
         }
         const nlohmann::ordered_json document = {
             {"schema", 1},

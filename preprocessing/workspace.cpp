@@ -13,13 +13,15 @@
 #include "database/hidden_subjects.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/json_values.h"
 #include "geometry/output_folder.h"
 #include "geometry/parallel.h"
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
-#include "preprocessing/json_values.h"
+#include "geometry/text.h"
 #include "preprocessing/normalisation.h"
 #include "preprocessing/quality_sheet.h"
+#include "preprocessing/workspace_json.h"
 
 namespace mimik::preprocessing {
 
@@ -69,6 +71,10 @@ std::string stamp(const ScanEntry& entry) {
                        static_cast<int>(entry.unit), entry.sex, entry.texture_file.string());
 }
 
+bool inside(const fs::path& inner, const fs::path& outer) {
+    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
 
 /// What `.done` says of a face: what it was made from, and how long its two files are, so that a file that was deleted
@@ -87,7 +93,8 @@ bool finished(const fs::path& stem, const std::string& fingerprint) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return false;
     try {
-        return geometry::read_text(file) == done_text(stem, fingerprint);
+        const auto expected = done_text(stem, fingerprint);
+        return geometry::read_text(file, expected.size()) == expected;
     } catch (const InputError&) {
         return false;  // unreadable: made again
     }
@@ -441,7 +448,7 @@ private:
                                          {"subjects_left_out", report.left_out},
                                          {"hidden_subjects", database_.hidden_subjects}};
         keep_hidden_list();
-        geometry::write_atomically(root_ / "workspace.json", json_text(document));
+        geometry::write_atomically(root_ / "workspace.json", geometry::json_text(document));
         remove_hidden_sheets(Workspace(root_));
         return report;
     }
@@ -463,9 +470,6 @@ void check_workspace_place(const database::ScanDatabase& database, const fs::pat
     const auto place = [](const fs::path& path) {
         auto canonical = fs::weakly_canonical(fs::absolute(path));
         return canonical.has_filename() ? canonical : canonical.parent_path();  // "folder/" is "folder"
-    };
-    const auto inside = [](const fs::path& inner, const fs::path& outer) {
-        return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
     };
     std::error_code ignored;
     if (fs::exists(root, ignored) && !fs::is_directory(root, ignored))
@@ -521,39 +525,41 @@ void align_to_neutral(Face& face, const Face& neutral, const std::vector<char>& 
                                            alignment.iterations, alignment.rms_mm));
 }
 
+WorkspaceList decode_workspace(std::string_view text, const std::string& name) {
+    return geometry::read_json_document(text, name, damaged_file_mend, [](const nlohmann::json& document) {
+        WorkspaceList list;
+        list.database_root = geometry::read_field<std::string>(document, "database");
+        list.made_with_truth = document.contains("truth") && geometry::read_field<bool>(document, "truth");
+        list.hidden_subjects = geometry::read_field<std::vector<std::string>>(document, "hidden_subjects");
+        geometry::read_list(document, "scans", [&](const nlohmann::json& entry) {
+            list.scans.push_back(database::scan_id_from(entry.get<std::string>()));
+        });
+        std::sort(list.scans.begin(), list.scans.end());
+        return list;
+    });
+}
+
 Workspace::Workspace(fs::path root) : root_(std::move(root)) {
     const auto file = root_ / "workspace.json";
     if (!fs::exists(file))
         throw InputError(
             fmt::format("{}: no finished workspace there; make or finish one with 'mimik preprocess DB -o {}'",
                         root_.string(), root_.string()));
-    from_json_file<int>(file, [&](const nlohmann::json& document) {
-        database_root_ = document.at("database").get<std::string>();
-        made_with_truth_ = document.value("truth", false);
-        hidden_subjects_ = document.at("hidden_subjects").get<std::vector<std::string>>();
-        for (const auto& name : document.at("scans")) {
-            const auto id = database::parse_scan_name(name.get<std::string>());
-            if (!id)
-                throw InputError(fmt::format("{}: '{}' is not a scan name", file.string(), name.get<std::string>()));
-            scans_.push_back(*id);
-        }
-        return 0;
-    });
-    std::sort(scans_.begin(), scans_.end());
+    list_ = decode_workspace(geometry::read_text(file, geometry::most_json_bytes), file.string());
     // Who asked to be hidden since then is hidden at once, not from the next preprocessing on.
-    for (const auto& folder : {database_root_, root_})
+    for (const auto& folder : {list_.database_root, root_})
         for (auto& subject : database::hidden_subjects_of(folder, subjects(), database::KnownSubjects::some).subjects)
-            if (!hidden(subject)) hidden_subjects_.push_back(std::move(subject));
+            if (!hidden(subject)) list_.hidden_subjects.push_back(std::move(subject));
     average_ = read_average_face(average_stem(root_));
 }
 
 std::vector<std::string> Workspace::subjects() const {
     std::set<std::string> names;
-    for (const auto& id : scans_) names.insert(id.subject);
+    for (const auto& id : list_.scans) names.insert(id.subject);
     return {names.begin(), names.end()};
 }
 
-bool Workspace::hidden(const std::string& subject) const { return database::is_hidden(hidden_subjects_, subject); }
+bool Workspace::hidden(const std::string& subject) const { return database::is_hidden(list_.hidden_subjects, subject); }
 
 void Workspace::refuse_hidden(const std::string& subject) const {
     if (hidden(subject))
@@ -563,22 +569,34 @@ void Workspace::refuse_hidden(const std::string& subject) const {
                         subject));
 }
 
-bool Workspace::has(const ScanId& id) const { return std::binary_search(scans_.begin(), scans_.end(), id); }
+bool Workspace::has(const ScanId& id) const { return std::binary_search(list_.scans.begin(), list_.scans.end(), id); }
 
 ScanId Workspace::neutral(const std::string& subject) const {
-    for (const auto& id : scans_)
+    for (const auto& id : list_.scans)
         if (id.subject == subject && id.neutral()) return id;
     throw InputError(fmt::format("{}: subject '{}' has no neutral face there; there are: {}", root_.string(), subject,
                                  fmt::join(subjects(), ", ")));
 }
 
 std::optional<ScanId> Workspace::expression(const std::string& subject, const std::string& code) const {
-    for (const auto& id : scans_)
+    for (const auto& id : list_.scans)
         if (id.subject == subject && !id.neutral() && upper(id.code) == upper(code)) return id;
     return std::nullopt;
 }
 
-Face Workspace::face(const ScanId& id) const { return read_face(stem(id)); }
+Face Workspace::face(const ScanId& id) const {
+    auto face = read_face(stem(id));
+    const auto refuse = [&](const std::string& what) {
+        throw InputError(fmt::format("{}.json: {}; run 'mimik preprocess' again", stem(id).string(), what));
+    };
+    if (face.id != id) refuse(fmt::format("scan is {}", geometry::in_quotes(face.id.name())));
+    // A workspace that came from elsewhere shall not reach other files.
+    if (const auto& texture = face.texture_file;
+        !texture.empty() && !inside(texture.lexically_normal(), database_root()))
+        refuse(fmt::format("texture_file {} does not lie in the database {}", geometry::in_quotes(texture.string()),
+                           database_root().string()));
+    return face;
+}
 
 fs::path Workspace::stem(const ScanId& id) const { return face_stem(root_, id); }
 

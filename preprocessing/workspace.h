@@ -53,6 +53,16 @@ struct PreprocessReport {
     std::vector<std::string> left_out;  ///< subjects without a usable neutral
 };
 
+/// What workspace.json says.
+struct WorkspaceList {
+    std::filesystem::path database_root;
+    bool made_with_truth = false;
+    std::vector<database::ScanId> scans;  ///< sorted
+    std::vector<std::string> hidden_subjects;
+};
+/// `name` stands for the file. @throws InputError naming file, field and value.
+[[nodiscard]] WorkspaceList decode_workspace(std::string_view text, const std::string& name);
+
 /// A folder of preprocessed faces:
 ///   workspace.json               database, whether it has a truth, options, list of faces, hidden subjects (schema 1)
 ///   average/average_face.{ply,json}
@@ -66,11 +76,11 @@ public:
     explicit Workspace(std::filesystem::path root);
 
     [[nodiscard]] const std::filesystem::path& root() const { return root_; }
-    [[nodiscard]] const std::filesystem::path& database_root() const { return database_root_; }
+    [[nodiscard]] const std::filesystem::path& database_root() const { return list_.database_root; }
     /// Whether the database had a truth (truth/truth.json) when the workspace was made.
-    [[nodiscard]] bool made_with_truth() const { return made_with_truth_; }
+    [[nodiscard]] bool made_with_truth() const { return list_.made_with_truth; }
     [[nodiscard]] const AverageFace& average() const { return average_; }
-    [[nodiscard]] const std::vector<database::ScanId>& scans() const { return scans_; }
+    [[nodiscard]] const std::vector<database::ScanId>& scans() const { return list_.scans; }
     [[nodiscard]] std::vector<std::string> subjects() const;
     [[nodiscard]] bool hidden(const std::string& subject) const;
     /// @throws InputError if the subject must not be shown.
@@ -85,11 +95,9 @@ public:
     [[nodiscard]] std::filesystem::path stem(const database::ScanId& id) const;
 
 private:
-    std::filesystem::path root_, database_root_;
-    bool made_with_truth_ = false;
+    std::filesystem::path root_;
+    WorkspaceList list_;
     AverageFace average_;
-    std::vector<database::ScanId> scans_;
-    std::vector<std::string> hidden_subjects_;
 };
 
 /// @throws InputError if `root` is a file, the database's folder, or a subject's or the truth's or inside one: a

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "database/scan_id.h"
@@ -54,7 +55,9 @@ struct TrueScan {
 /// @throws InputError naming the file if the folder is not a synthetic database or its truth is of another schema.
 [[nodiscard]] Truth open_truth(const std::filesystem::path& database_root);
 /// truth.json from memory; `name` stands for the file in messages, the root stays empty. @throws InputError.
-[[nodiscard]] Truth decode_truth(const std::string& text, const std::string& name);
+[[nodiscard]] Truth decode_truth(std::string_view text, const std::string& name);
+/// What stands in a scan's .json: everything but vertices, faces and displacements. @throws InputError.
+[[nodiscard]] TrueScan decode_true_scan(std::string_view text, const std::string& name);
 /// @throws InputError naming the file and what does not fit.
 [[nodiscard]] TrueScan load_true_scan(const Truth& truth, const database::ScanId& id);
 

@@ -4,11 +4,11 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "geometry/csv.h"
 #include "geometry/errors.h"
 #include "geometry/formats/landmark_formats.h"
+#include "geometry/json_values.h"
 #include "geometry/text.h"
 
 namespace mimik::geometry::formats {
@@ -18,31 +18,8 @@ using Json = nlohmann::json;
 
 bool is_frame(std::string_view text) { return text == "LPS" || text == "RAS" || text == "0" || text == "1"; }
 
-// Slicer's own files nest 6 deep and have some 40 values per point.
-constexpr int deepest_json = 32;
-constexpr std::size_t most_json_values = 1'000'000;
-
-Json parse_json(std::string_view text, const std::string& name) {
-    std::size_t values = 0;
-    const auto guard = [&](int depth, Json::parse_event_t, Json&) {
-        if (depth > deepest_json)
-            throw InputError(fmt::format("{}: the JSON nests deeper than {} levels; it is not a Slicer markups file",
-                                         name, deepest_json));
-        if (++values > most_json_values)
-            throw InputError(
-                fmt::format("{}: the JSON has more than {} values; it is not a Slicer markups file of landmarks", name,
-                            most_json_values));
-        return true;
-    };
-    try {
-        return Json::parse(text.begin(), text.end(), guard);
-    } catch (const Json::parse_error& e) {
-        throw InputError(fmt::format("{}: byte {}: the JSON is damaged or truncated", name, e.byte));
-    } catch (const Json::out_of_range&) {
-        throw InputError(
-            fmt::format("{}: the JSON holds a number too large for a double; place that point again", name));
-    }
-}
+// Slicer's own files have some 40 values per point.
+constexpr JsonLimits slicer_limits = {.most_values = 1'000'000};
 
 std::string text_of(const Json& object, const char* key, const std::string& otherwise) {
     const auto it = object.find(key);
@@ -105,7 +82,7 @@ RawLandmarks decode_fcsv(std::string_view text, const std::string& name) {
 }
 
 RawLandmarks decode_mrk_json(std::string_view text, const std::string& name) {
-    const auto json = parse_json(text, name);
+    const auto json = parse_json(text, name, slicer_limits);
     if (!json.is_object() || !json.contains("markups") || !json["markups"].is_array() || json["markups"].empty() ||
         !json["markups"][0].is_object())
         throw InputError(fmt::format("{}: has no list 'markups'; it is not a Slicer .mrk.json file", name));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -12,6 +13,7 @@
 #include "animation/face_export.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/image.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
 #include "tests/support/dense_spline.h"
@@ -485,15 +487,33 @@ TEST_F(Animate, a_parallel_resultant_is_one_morph_target_and_a_remark_says_so) {
 TEST_F(Animate, a_picture_beside_the_face_is_not_overwritten_by_its_texture) {
     const database::TemporaryFolder folder;
     geometry::write_atomically(folder.path() / "face.png", "picture");
-    geometry::write_atomically(folder.path() / "scan.png", "photograph");
+    geometry::write_png(folder.path() / "scan.png", {1, 1, {10, 20, 30}});
     const auto model = smile();
     const TargetFace target(target_->neutral, modeling::Frame::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     write_animated_face(folder.path() / "face.ply", animated, target, {}, folder.path() / "scan.png");
     EXPECT_EQ(geometry::read_text(folder.path() / "face.png"), "picture");
-    EXPECT_EQ(geometry::read_text(folder.path() / "face_texture.png"), "photograph");
+    EXPECT_EQ(geometry::read_text(folder.path() / "face_texture.png"), geometry::read_text(folder.path() / "scan.png"));
     EXPECT_THAT(geometry::read_text(folder.path() / "face.ply").substr(0, 400), HasSubstr("face_texture.png"));
+}
+
+TEST_F(Animate, a_texture_that_is_no_picture_is_not_handed_on) {
+    const database::TemporaryFolder folder;
+    geometry::write_atomically(folder.path() / "key.png", "a text that is nobody's business");
+    const auto model = smile();
+    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const WeightedExpression weighted{&model, 1.0};
+    const auto animated = animate(target, std::span(&weighted, 1));
+    const std::vector<NamedMagnitude> names = {{"AU12", 1.0, ""}};
+    for (const char* file : {"face.ply", "face.glb"}) {
+        EXPECT_THAT(database::message_of<InputError>([&] {
+                        (void)write_animated_face(folder.path() / file, animated, target, names,
+                                                  folder.path() / "key.png");
+                    }),
+                    HasSubstr("key.png: is not a PNG image"));
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / file));
+    }
 }
 
 TEST(AnimationOptions, defaults_and_the_thesis_are_valid_and_negative_smoothing_is_not) {

@@ -26,6 +26,13 @@ TEST(ScanName, other_names_are_no_scan_names) {
         EXPECT_FALSE(parse_scan_name(name)) << name;
 }
 
+TEST(ScanName, no_name_leads_to_another_folder) {
+    for (const char* name : {"../bs000_N_N_0", ".._N_N_0", "a/b_N_N_0", "a\\b_N_N_0", "bs000_N_../x_0", "a\n_N_N_0"}) {
+        EXPECT_FALSE(parse_scan_name(name)) << name;
+        EXPECT_THROW((void)scan_id_from(name), InputError) << name;
+    }
+}
+
 TEST(ScanName, action_unit_side_and_intensity_come_from_the_code) {
     const auto left = *parse_scan_name("bs000_LFAU_12L_0");
     EXPECT_EQ(left.action_unit(), 12);

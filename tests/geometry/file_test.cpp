@@ -109,5 +109,15 @@ TEST_F(File, numbers_are_written_with_a_point_whatever_the_global_locale) {
     EXPECT_EQ(read_text(folder_ / "number"), "1.5");
 }
 
+TEST_F(File, of_a_long_file_the_head_is_read_and_of_a_short_one_the_whole) {
+    const auto file = folder_ / "long";
+    write_atomically(file, std::string(1000, 'a') + "b");
+    std::filesystem::resize_file(file, std::uintmax_t{1} << 40);  // sparse: nobody could hold it
+    EXPECT_EQ(read_text_head(file, 1001), std::string(1000, 'a') + "b");
+    write_atomically(file, "short");
+    EXPECT_EQ(read_text_head(file, 1001), "short");
+    EXPECT_THAT(input_error([&] { (void)read_text_head(folder_, 10); }), HasSubstr("is a folder"));
+}
+
 }  // namespace
 }  // namespace mimik::geometry

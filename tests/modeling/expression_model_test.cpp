@@ -275,6 +275,28 @@ TEST_F(ExpressionModelTest, a_damaged_model_file_is_named) {
                 HasSubstr("frame 'simulation' is neither"));
 }
 
+TEST_F(ExpressionModelTest, hostile_values_are_refused_with_file_and_field) {
+    auto model = measure(*source_);
+    const auto error = [](const std::string& text) {
+        return message_of<InputError>([&] { (void)decode_expression_model(text, "m.json"); });
+    };
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        auto text = encode_expression_model(model);
+        return text.replace(text.find(from), from.size(), to);
+    };
+    EXPECT_THAT(error(changed("\"kind\": \"muscle\"", "\"kind\": \"bone\"")),
+                testing::ContainsRegex("m.json: points\\[[0-9]+\\]: kind 'bone' is none of"));
+    EXPECT_THAT(error(changed("\"displacement_mm\": [", "\"displacement_mm\": [null,")),
+                testing::ContainsRegex("m.json: points\\[[0-9]+\\]: displacement_mm: "));
+    EXPECT_THAT(error(changed("\"mouth_width_mm\": ", "\"mouth_width_mm\": 1e")), HasSubstr("m.json: "));
+    EXPECT_THAT(error(changed("\"frame\": \"", "\"frame\": \"" + std::string(1'000'000, 'x'))),
+                HasSubstr("m.json: frame 'xxx"));
+    EXPECT_LT(error(changed("\"frame\": \"", "\"frame\": \"" + std::string(1'000'000, 'x'))).size(), 200U);
+    model.points.assign(10'001, model.points.front());  // a spline through a million points would fill any memory
+    EXPECT_THAT(error(encode_expression_model(model)),
+                HasSubstr("m.json: points[10000]: more than the 10000 points that are read"));
+}
+
 TEST_F(ExpressionModelTest, a_missing_landmark_and_an_unknown_expression_are_named) {
     auto neutral = source_->neutral;
     std::vector<geometry::Landmark> marks;

@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using database::message_of;
 using geometry::Point;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -387,6 +388,24 @@ TEST_F(WorkspaceTest, what_is_missing_or_damaged_is_named) {
     geometry::write_atomically(face_file("bs002_N_N_0.json"), "{}");
     EXPECT_THAT(message_of<InputError>([&] { (void)workspace.face(workspace.neutral("bs002")); }),
                 HasSubstr("bs002_N_N_0.json: schema is 0"));
+}
+
+TEST_F(WorkspaceTest, a_face_of_another_scan_or_with_a_texture_from_elsewhere_is_refused) {
+    (void)preprocess();
+    const Workspace workspace(workspace_);
+    const auto id = workspace.neutral("bs001");
+    auto face = workspace.face(id);
+    const auto error = [&] {
+        write_face(workspace.stem(id), face);
+        return message_of<InputError>([&] { (void)workspace.face(id); });
+    };
+    face.texture_file = workspace.database_root() / "bs001" / ".." / ".." / "secret.png";
+    EXPECT_THAT(error(),
+                AllOf(HasSubstr("bs001_N_N_0.json: texture_file '"), HasSubstr("does not lie in the database")));
+    face.texture_file = workspace.database_root() / "bs001" / "bs001_N_N_0.png";
+    EXPECT_EQ(error(), "nothing was thrown");
+    face.id.subject = "bs000";  // as if a hidden subject's face were renamed
+    EXPECT_THAT(error(), HasSubstr("bs001_N_N_0.json: scan is 'bs000_N_N_0'"));
 }
 
 TEST_F(WorkspaceTest, a_face_reads_back_bit_for_bit) {

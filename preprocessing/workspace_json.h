@@ -1,0 +1,15 @@
+#pragma once
+
+#include "geometry/json_values.h"
+#include "geometry/quad_grid.h"
+
+// What the JSON files of a workspace share. For .cpp files only: the JSON library is a heavy header.
+
+namespace mimik::preprocessing {
+
+inline constexpr const char* damaged_file_mend = "the file is damaged or was edited by hand";
+
+/// rows and cols alone: the vertices stand in a PLY beside the JSON. @throws InputError naming the field.
+[[nodiscard]] geometry::QuadGrid grid_size_from_json(const nlohmann::json& document);
+
+}  // namespace mimik::preprocessing
