@@ -1,10 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <span>
 
@@ -14,6 +11,7 @@
 #include "geometry/file.h"
 #include "geometry/parallel.h"
 #include "synthesis/face_model.h"
+#include "synthesis/ict_obj.h"
 #include "synthesis/random_stream.h"
 
 namespace mimik::synthesis {
@@ -25,7 +23,9 @@ using geometry::Vector;
 
 /// Face (0..9408), head and neck (9409..11247): what lies behind is mouth, eyes and teeth.
 constexpr std::uint32_t skin_vertices = 11248;
-constexpr double mm_per_cm = 10.0;
+// Of a shape's file only the skin's vertices are read: 450 kB of 2.5 MB.
+constexpr std::size_t head_bytes = std::size_t{1} << 20;
+constexpr std::uintmax_t most_mesh_bytes = std::uintmax_t{1} << 26;
 
 /// The 22 landmarks on the subject's own side, as chosen on the mean face.
 const std::map<std::string, std::uint32_t>& ict_landmarks() {
@@ -52,49 +52,8 @@ constexpr std::array<std::uint32_t, 6> left_lids = {3742, 3751, 3756, 3721, 3725
 constexpr std::array<std::uint32_t, 5> right_brow = {268, 493, 1914, 2044, 1401};
 constexpr std::array<std::uint32_t, 5> left_brow = {3615, 4240, 4114, 2734, 2509};
 
-/// The first `wanted` vertices of an OBJ file, mm. Only the head of the file is read: vertices come first.
-std::vector<Point> read_vertices(const fs::path& file, std::size_t wanted) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw InputError(fmt::format("{}: cannot be opened", file.string()));
-    std::vector<Point> vertices;
-    vertices.reserve(wanted);
-    std::string text;
-    std::size_t at = 0, line_number = 0;
-    constexpr std::size_t piece = std::size_t{1} << 19;
-    const auto more = [&] {
-        text.erase(0, at);
-        at = 0;
-        const std::size_t old = text.size();
-        text.resize(old + piece);
-        in.read(text.data() + old, piece);
-        text.resize(old + static_cast<std::size_t>(in.gcount()));
-        return in.gcount() > 0;
-    };
-    while (vertices.size() < wanted) {
-        std::size_t end = text.find('\n', at);
-        while (end == std::string::npos && more()) end = text.find('\n', at);
-        if (end == std::string::npos)
-            throw InputError(
-                fmt::format("{}: {} vertices, the face model needs {}; the file is cut off or of another topology",
-                            file.string(), vertices.size(), wanted));
-        ++line_number;
-        if (text[at] == 'v' && (text[at + 1] == ' ' || text[at + 1] == '\t')) {
-            Point point;
-            const char* cursor = text.data() + at + 1;
-            const char* const stop = text.data() + end;
-            for (int axis = 0; axis < 3; ++axis) {
-                while (cursor < stop && (*cursor == ' ' || *cursor == '\t')) ++cursor;
-                const auto [next, error] = std::from_chars(cursor, stop, point[axis]);
-                if (error != std::errc{} || !std::isfinite(point[axis]))
-                    throw InputError(fmt::format("{}: line {}: coordinate {} is not a number", file.string(),
-                                                 line_number, axis + 1));
-                cursor = next;
-            }
-            vertices.push_back(mm_per_cm * point);
-        }
-        at = end + 1;
-    }
-    return vertices;
+std::vector<Point> read_vertices(const fs::path& file) {
+    return decode_ict_vertices(geometry::read_text_head(file, head_bytes), file.string(), skin_vertices);
 }
 
 bool inside_polygon(const Point& p, std::span<const Point> polygon) {
@@ -183,56 +142,10 @@ public:
 
 private:
     void read_topology(const fs::path& file) {
-        mean_ = read_vertices(file, skin_vertices);
-        const std::string text = geometry::read_text(file);
-        std::vector<geometry::TextureCoordinate> texture;
-        texture_.assign(skin_vertices, geometry::TextureCoordinate::Zero());
-        std::size_t line_number = 0;
-        for (std::size_t at = 0; at < text.size();) {
-            const std::size_t end = std::min(text.find('\n', at), text.size());
-            const char* cursor = text.data() + at;
-            const char* const stop = text.data() + end;
-            ++line_number;
-            at = end + 1;
-            const auto number = [&](auto& value) {
-                while (cursor < stop && *cursor == ' ') ++cursor;
-                const auto [next, error] = std::from_chars(cursor, stop, value);
-                cursor = next;
-                return error == std::errc{};
-            };
-            const auto bad = [&](const char* what) {
-                return InputError(fmt::format("{}: line {}: {}", file.string(), line_number, what));
-            };
-            if (stop - cursor > 3 && cursor[0] == 'v' && cursor[1] == 't') {
-                cursor += 2;
-                geometry::TextureCoordinate uv;
-                if (!number(uv.x()) || !number(uv.y())) throw bad("texture coordinate is not a number");
-                texture.push_back(uv);
-            } else if (stop - cursor > 2 && cursor[0] == 'f' && cursor[1] == ' ') {
-                ++cursor;
-                std::vector<std::uint32_t> corners, texture_corners;
-                std::uint32_t v = 0, vt = 0;
-                while (number(v)) {
-                    if (v == 0) throw bad("vertex index 0; OBJ counts from 1");
-                    corners.push_back(v - 1);
-                    if (cursor < stop && *cursor == '/' && (++cursor, number(vt))) texture_corners.push_back(vt);
-                    while (cursor < stop && *cursor != ' ') ++cursor;
-                }
-                if (corners.size() < 3) throw bad("a face with fewer than 3 corners");
-                if (*std::max_element(corners.begin(), corners.end()) >= skin_vertices) continue;
-                faces_.add(corners);
-                if (texture_corners.size() != corners.size()) continue;
-                for (std::size_t i = 0; i < corners.size(); ++i) {
-                    if (texture_corners[i] == 0 || texture_corners[i] > texture.size())
-                        throw bad("texture index out of range");
-                    // Tiles of one texture space: the fraction is the place inside the tile.
-                    const auto& uv = texture[texture_corners[i] - 1];
-                    texture_[corners[i]] = {uv.x() - std::floor(uv.x()), uv.y() - std::floor(uv.y())};
-                }
-            }
-        }
-        if (faces_.size() == 0)
-            throw InputError(fmt::format("{}: no face of the skin; is it the ICT-FaceKit mesh?", file.string()));
+        auto skin = decode_ict_skin(geometry::read_bytes(file, most_mesh_bytes), file.string(), skin_vertices);
+        mean_ = std::move(skin.vertices_mm);
+        faces_ = std::move(skin.faces);
+        texture_ = std::move(skin.texture);
     }
 
     void read_modes_and_shapes(const fs::path& folder) {
@@ -249,7 +162,7 @@ private:
         std::vector<std::vector<Vector>> deltas(files.size());
         geometry::parallel_for(files.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                deltas[i] = read_vertices(files[i], skin_vertices);
+                deltas[i] = read_vertices(files[i]);
                 for (std::size_t v = 0; v < skin_vertices; ++v) deltas[i][v] -= mean_[v];
             }
         });

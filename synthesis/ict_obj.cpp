@@ -1,0 +1,71 @@
+#include "synthesis/ict_obj.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
+#include "geometry/mesh_io.h"
+#include "geometry/text.h"
+
+namespace mimik::synthesis {
+namespace {
+
+void check_count(std::size_t vertices, std::size_t wanted, const std::string& name) {
+    if (vertices < wanted)
+        throw InputError(
+            fmt::format("{}: {} vertices, the face model needs {}; the file is cut off or of another topology", name,
+                        vertices, wanted));
+}
+
+}  // namespace
+
+IctSkin decode_ict_skin(std::span<const std::uint8_t> bytes, const std::string& name, std::size_t wanted) {
+    auto mesh = geometry::decode_mesh(geometry::MeshFormat::obj, bytes, name, geometry::LengthUnit::centimetre).mesh;
+    check_count(mesh.vertices_mm.size(), wanted, name);
+    IctSkin skin;
+    skin.texture.assign(wanted, geometry::TextureCoordinate::Zero());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const auto corners = mesh.faces[f];
+        if (*std::max_element(corners.begin(), corners.end()) >= wanted) continue;
+        skin.faces.add(corners);
+        if (mesh.texture_coordinates.empty()) continue;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const auto& uv = mesh.texture_coordinates[mesh.faces.texture_corners.empty()
+                                                          ? corners[k]
+                                                          : mesh.faces.texture_corners[mesh.faces.first[f] + k]];
+            skin.texture[corners[k]] = {uv.x() - std::floor(uv.x()), uv.y() - std::floor(uv.y())};
+        }
+    }
+    if (skin.faces.size() == 0)
+        throw InputError(fmt::format("{}: no face of the skin; is it the ICT-FaceKit mesh?", name));
+    mesh.vertices_mm.resize(wanted);
+    skin.vertices_mm = std::move(mesh.vertices_mm);
+    return skin;
+}
+
+std::vector<geometry::Point> decode_ict_vertices(std::string_view head, const std::string& name, std::size_t wanted) {
+    // What follows the last line end may be half a line.
+    geometry::LineReader lines(head.substr(0, head.rfind('\n') + 1), name);
+    const double mm = geometry::millimetres_per(geometry::LengthUnit::centimetre);
+    std::vector<geometry::Point> vertices_mm;
+    while (vertices_mm.size() < wanted && lines.next()) {
+        std::string_view rest = lines.line();
+        if (geometry::next_word(rest) != "v") continue;
+        geometry::Point point;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto word = geometry::next_word(rest);
+            const auto value = geometry::parse_double(word);
+            if (!value || !std::isfinite(*value))
+                lines.fail(
+                    fmt::format("coordinate {} is {}, not a finite number", axis + 1, geometry::in_quotes(word)));
+            point[axis] = *value;
+        }
+        vertices_mm.push_back(mm * point);
+    }
+    check_count(vertices_mm.size(), wanted, name);
+    return vertices_mm;
+}
+
+}  // namespace mimik::synthesis
