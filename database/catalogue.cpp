@@ -10,12 +10,12 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sqlite3.h>
 #include <sys/stat.h>
 
 #include "geometry/content_hash.h"
 #include "geometry/errors.h"
+#include "geometry/json_values.h"
 #include "geometry/parallel.h"
 
 namespace mimik::database {
@@ -25,6 +25,15 @@ namespace fs = std::filesystem;
 
 /// Raised whenever summaries or checks change their meaning: older catalogues are then built anew.
 constexpr int catalogue_version = 1;
+
+// As SQLite keeps them: a file that has anything else, such as a view or a trigger, is none of ours.
+constexpr const char* about_table = "CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL)";
+constexpr const char* scans_table =
+    "CREATE TABLE scans (file TEXT PRIMARY KEY, state TEXT NOT NULL, summary TEXT NOT NULL, check_state TEXT NOT NULL, "
+    "findings TEXT NOT NULL)";
+// A row has 1 to 2 kB: 100,000 scans fit.
+constexpr int most_value_bytes = 1 << 24;
+constexpr std::size_t most_bytes = std::size_t{1} << 28;
 
 /// A catalogue that cannot be used, with the reason; never leaves this file.
 struct CacheTrouble {
@@ -43,6 +52,10 @@ public:
         try {
             expect(status, SQLITE_OK);
             sqlite3_busy_timeout(handle_, 2000);
+            sqlite3_limit(handle_, SQLITE_LIMIT_LENGTH, most_value_bytes);
+            sqlite3_progress_handler(
+                handle_, steps_per_call, [](void* left) { return --*static_cast<int*>(left) < 0 ? 1 : 0; },
+                &calls_left_);
             // A cache may lose its last moments when the power fails.
             run("PRAGMA synchronous = OFF");
             run("BEGIN IMMEDIATE");
@@ -62,13 +75,20 @@ public:
         throw CacheTrouble{
             fmt::format("{}: {}", file_.string(), handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(status)),
             primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB || primary == SQLITE_ERROR ||
-                primary == SQLITE_MISMATCH || primary == SQLITE_SCHEMA};
+                primary == SQLITE_MISMATCH || primary == SQLITE_SCHEMA || primary == SQLITE_TOOBIG ||
+                primary == SQLITE_INTERRUPT};
     }
     [[nodiscard]] sqlite3* handle() const { return handle_; }
+    [[noreturn]] void refuse(const std::string& what) const {
+        throw CacheTrouble{fmt::format("{}: {}", file_.string(), what), true};
+    }
 
 private:
     fs::path file_;
     sqlite3* handle_ = nullptr;
+    // A row takes some 10 steps; a file whose pages lead in circles would take for ever.
+    static constexpr int steps_per_call = 1'000'000;
+    int calls_left_ = 200;
 };
 
 class Statement {
@@ -149,11 +169,12 @@ std::string to_json(const ScanSummary& s) {
 }
 
 ScanSummary summary_from_json(const std::string& text) {
-    const auto json = nlohmann::json::parse(text);
+    constexpr std::size_t most = std::size_t{1} << 31;
+    const auto json = geometry::parse_json(text, "summary");
     ScanSummary s;
-    s.rows = json.at("rows").get<int>();
-    s.cols = json.at("cols").get<int>();
-    s.points = json.at("points").get<std::size_t>();
+    s.rows = static_cast<int>(geometry::whole_number_below(most, json.at("rows"), "rows"));
+    s.cols = static_cast<int>(geometry::whole_number_below(most, json.at("cols"), "cols"));
+    s.points = geometry::whole_number_below(most, json.at("points"), "points");
     s.landmarks = json.at("landmarks").get<std::vector<std::string>>();
     s.remarks = json.at("remarks").get<std::vector<std::string>>();
     s.error = json.at("error").get<std::string>();
@@ -173,17 +194,18 @@ void prepare(Cache& cache, const std::string& root) {
     }
     bool usable = version == catalogue_version;
     if (usable) {
+        Statement schema(cache, "SELECT sql FROM sqlite_master WHERE sql IS NOT NULL ORDER BY name");
+        for (const char* table : {about_table, scans_table})
+            if (!schema.row() || schema.text(0) != table) cache.refuse("its tables are not those of a catalogue");
+        if (schema.row()) cache.refuse("it has more than the tables of a catalogue");
         Statement statement(cache, "SELECT value FROM about WHERE name = 'database'");
         usable = statement.row() && statement.text(0) == root;
     }
     if (usable) return;
     cache.run("DROP TABLE IF EXISTS about");
     cache.run("DROP TABLE IF EXISTS scans");
-    cache.run("CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL)");
-    cache.run(
-        "CREATE TABLE scans (file TEXT PRIMARY KEY, state TEXT NOT NULL, summary TEXT NOT NULL, check_state TEXT NOT "
-        "NULL, "
-        "findings TEXT NOT NULL)");
+    cache.run(about_table);
+    cache.run(scans_table);
     cache.run(fmt::format("PRAGMA user_version = {}", catalogue_version).c_str());
     Statement statement(cache, "INSERT INTO about VALUES ('database', ?)");
     statement.bind(1, root);
@@ -193,8 +215,14 @@ void prepare(Cache& cache, const std::string& root) {
 std::map<std::string, Remembered> read_all(Cache& cache) {
     std::map<std::string, Remembered> rows;
     Statement statement(cache, "SELECT file, state, summary, check_state, findings FROM scans");
-    while (statement.row())
-        rows[statement.text(0)] = {statement.text(1), statement.text(2), statement.text(3), statement.text(4)};
+    std::size_t bytes = 0;
+    while (statement.row()) {
+        Remembered row{statement.text(1), statement.text(2), statement.text(3), statement.text(4)};
+        // Counted also where a page that stands in two places gives one row again and again.
+        bytes += 100 + row.state.size() + row.summary.size() + row.check_state.size() + row.findings.size();
+        if (bytes > most_bytes) cache.refuse(fmt::format("its rows have more than {} bytes", most_bytes));
+        rows[statement.text(0)] = std::move(row);
+    }
     return rows;
 }
 
@@ -336,7 +364,7 @@ CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntr
             if (trouble.damaged) {
                 std::error_code ignored;
                 fs::remove(file, ignored);
-                fs::remove(file.string() + "-journal", ignored);
+                for (const char* suffix : {"-journal", "-wal", "-shm"}) fs::remove(file.string() + suffix, ignored);
                 result.remark += "; the catalogue is built anew";
                 result.file = file;
             } else {

@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "geometry/json_values.h"
 
 namespace mimik::database {
 namespace {
@@ -419,7 +419,7 @@ std::string to_json(const std::vector<Finding>& findings) {
 std::vector<Finding> findings_from_json(std::string_view json) {
     try {
         std::vector<Finding> findings;
-        for (const auto& item : nlohmann::json::parse(json)) {
+        for (const auto& item : geometry::parse_json(json, "findings")) {
             const auto severity = item.at("severity").get<std::string>();
             findings.push_back({severity == "error"     ? Severity::error
                                 : severity == "warning" ? Severity::warning

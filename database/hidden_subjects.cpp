@@ -199,7 +199,9 @@ void refuse_hidden_at(const fs::path& file) {
     for (const auto& list : lists_up_from(file.parent_path(), 4)) {
         const auto subjects = possible_subjects(file, list.file.parent_path());
         const auto hidden =
-            ListReader(geometry::read_text(list.file, max_list_bytes), list.file.string(), subjects).read().subjects;
+            ListReader(geometry::read_text(list.file, most_hidden_list_bytes), list.file.string(), subjects)
+                .read()
+                .subjects;
         for (const auto& subject : subjects)
             if (is_hidden(hidden, subject))
                 throw InputError(fmt::format("{}: subject '{}' stands in {} and must not be shown; choose another",
@@ -243,7 +245,7 @@ HiddenSubjects hidden_subjects_of(const fs::path& folder, std::span<const std::s
     for (const auto& place : places_of(folder))
         for (const auto& list : lists_up_from(place, 2)) {
             if (!seen.insert(list.file).second) continue;
-            const auto text = geometry::read_text(list.file, max_list_bytes);
+            const auto text = geometry::read_text(list.file, most_hidden_list_bytes);
             auto entries = list.above || known == KnownSubjects::some
                                ? ListReader(text, list.file.string(), subjects).read()
                                : parse_hidden_subjects(text, list.file.string(), subjects);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -15,6 +16,9 @@ struct HiddenSubjects {
     std::vector<std::string> subjects;  ///< sorted; spelled as in the database where its scans are there
     std::vector<std::string> remarks;   ///< entries that match no subject of the database
 };
+
+/// 1 MB is some 100,000 subjects.
+inline constexpr std::uintmax_t most_hidden_list_bytes = 1 << 20;
 
 /// @param name      of the file, for messages.
 /// @param subjects  of the database. A line that is one of them as a whole is that subject, whatever letters it has.

@@ -43,8 +43,7 @@ std::string subject_name(const geometry::CsvReader& rows, const std::string& val
     return name;
 }
 
-}  // namespace
-
+/// Also the words.
 std::string parse_sex(const geometry::CsvReader& rows, const std::string& value) {
     std::string word = geometry::lower_case(value);
     if (word.empty() || word == "m" || word == "f") return word;
@@ -52,6 +51,8 @@ std::string parse_sex(const geometry::CsvReader& rows, const std::string& value)
     if (word == "female" || word == "woman") return "f";
     rows.fail(fmt::format("sex is {}; give m, f or nothing", geometry::in_quotes(value)));
 }
+
+}  // namespace
 
 Manifest parse_manifest(std::string_view text, const fs::path& file) {
     geometry::CsvReader rows(text, file.string());
@@ -91,6 +92,19 @@ Manifest parse_manifest(std::string_view text, const fs::path& file) {
         manifest.scans.push_back(std::move(entry));
     }
     return manifest;
+}
+
+std::map<std::string, std::string> parse_subjects(std::string_view text, const std::string& name) {
+    geometry::CsvReader rows(text, name);
+    const auto subject = rows.column("subject"), sex = rows.column("sex");
+    std::map<std::string, std::string> sexes;
+    while (rows.next()) {
+        if (rows.field(subject).empty()) rows.fail("subject is empty; name one as its folder is named");
+        const auto [known, is_new] =
+            sexes.emplace(geometry::lower_case(rows.field(subject)), parse_sex(rows, rows.field(sex)));
+        if (!is_new) rows.fail(fmt::format("subject {} stands twice; delete one", geometry::in_quotes(known->first)));
+    }
+    return sexes;
 }
 
 }  // namespace mimik::database

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "database/scan_database.h"
-#include "geometry/csv.h"
 
 namespace mimik::database {
 
@@ -23,7 +23,8 @@ struct Manifest {
 /// @throws InputError naming line, column, value and mend.
 [[nodiscard]] Manifest parse_manifest(std::string_view text, const std::filesystem::path& file);
 
-/// "m", "f" or empty from one field of a table; also the words. @throws InputError naming line and value.
-[[nodiscard]] std::string parse_sex(const geometry::CsvReader& rows, const std::string& value);
+/// subjects.csv of a database in Bosphorus layout: columns `subject` and `sex` (m, f or nothing), further ones are
+/// passed over. @return sex by subject in lower case. @throws InputError naming line, column and value.
+[[nodiscard]] std::map<std::string, std::string> parse_subjects(std::string_view text, const std::string& name);
 
 }  // namespace mimik::database

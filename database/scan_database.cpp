@@ -124,11 +124,7 @@ void read_lists(ScanDatabase& database, const fs::path& named_root) {
         }
     }
     if (const auto file = first_file(database.root, {"subjects.csv"}); !file.empty()) {
-        const std::string text = geometry::read_text(file, max_list_bytes);
-        geometry::CsvReader rows(text, file.string());
-        const auto subject = rows.column("subject"), sex = rows.column("sex");
-        std::map<std::string, std::string> sexes;
-        while (rows.next()) sexes[lower_case(rows.field(subject))] = parse_sex(rows, rows.field(sex));
+        const auto sexes = parse_subjects(geometry::read_text(file, max_list_bytes), file.string());
         for (auto& entry : database.scans)
             if (const auto it = sexes.find(lower_case(entry.id.subject)); it != sexes.end() && entry.sex.empty())
                 entry.sex = it->second;

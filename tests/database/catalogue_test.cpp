@@ -129,6 +129,33 @@ TEST_F(CatalogueTest, damage_inside_a_row_reads_that_scan_again) {
     EXPECT_EQ(list().scans_read, 0U);
 }
 
+TEST_F(CatalogueTest, a_catalogue_with_anything_but_its_tables_is_built_anew) {
+    const auto change = [&](const char* sql) {
+        (void)list();
+        sqlite3* handle = nullptr;
+        ASSERT_EQ(sqlite3_open(file().c_str(), &handle), SQLITE_OK);
+        ASSERT_EQ(sqlite3_exec(handle, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(handle);
+        sqlite3_close(handle);
+    };
+    for (const char* sql : {
+             // Rows without end.
+             "DROP TABLE scans; CREATE VIEW scans AS WITH RECURSIVE n(file, state, summary, check_state, findings) AS "
+             "(SELECT '1', '', '', '', '' UNION ALL SELECT file + 1, '', '', '', '' FROM n) SELECT * FROM n",
+             "CREATE TRIGGER t AFTER INSERT ON scans BEGIN DELETE FROM about; END",
+             "ALTER TABLE scans ADD COLUMN more TEXT",
+         }) {
+        change(sql);
+        const auto rebuilt = list();
+        EXPECT_EQ(rebuilt.scans_read, 3U) << sql;
+        EXPECT_THAT(rebuilt.remark, HasSubstr("built anew")) << sql;
+        EXPECT_EQ(list().scans_read, 0U) << sql;
+    }
+    // A row of more than 16 MB is nobody's summary.
+    change("UPDATE scans SET summary = zeroblob(20000000) WHERE file LIKE '%bs001%'");
+    EXPECT_THAT(list().remark, HasSubstr("built anew"));
+    EXPECT_EQ(list().scans_read, 0U);
+}
+
 TEST_F(CatalogueTest, a_locked_catalogue_is_done_without) {
     (void)list();
     sqlite3* handle = nullptr;

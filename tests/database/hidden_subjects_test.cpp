@@ -1,10 +1,14 @@
 #include "database/hidden_subjects.h"
 
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "database/scan_database.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
 
 namespace mimik::database {
@@ -46,6 +50,17 @@ TEST(HiddenSubjects, every_entry_that_matches_no_subject_is_remarked_with_its_li
     EXPECT_THAT(list.remarks, ElementsAre(HasSubstr("list.txt: line 2: 'nobody' is no subject"),
                                           HasSubstr("line 3: no scan of 'bs077' is here"),
                                           HasSubstr("line 3: 'x' is no subject"), HasSubstr("'y' is no subject")));
+}
+
+TEST(HiddenSubjects, a_list_of_a_size_that_no_list_has_is_refused_before_it_is_read) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    const auto file = folder.path() / "unallowed_subjects.txt";
+    geometry::write_atomically(file, "bs000\n");
+    std::filesystem::resize_file(file, std::uintmax_t{1} << 40);  // sparse: nobody could hold it
+    const auto expected = AllOf(HasSubstr("unallowed_subjects.txt: has 1099511627776 bytes"), HasSubstr("1048576"));
+    EXPECT_THAT(message_of<InputError>([&] { (void)open_database(folder.path()); }), expected);
+    EXPECT_THAT(message_of<InputError>([&] { refuse_hidden_file(folder.path() / "bs000/bs000_N_N_0.bnt"); }), expected);
 }
 
 TEST(HiddenSubjects, a_list_that_would_hide_nobody_is_refused) {

@@ -129,5 +129,15 @@ TEST(SubjectTable, gives_the_sex_in_a_bosphorus_layout) {
     EXPECT_EQ(open_database(folder.path()).scans[0].sex, "f");
 }
 
+TEST(SubjectTable, errors_name_file_line_and_value) {
+    const auto error = [](const std::string& text) {
+        return message_of<InputError>([&] { (void)parse_subjects(text, "s.csv"); });
+    };
+    EXPECT_THAT(error("subject,sex\nbs000,m\nbs001,7\n"), HasSubstr("s.csv: line 3: sex is '7'"));
+    EXPECT_THAT(error("subject,sex\n,m\n"), HasSubstr("s.csv: line 2: subject is empty"));
+    EXPECT_THAT(error("subject,sex\nbs000,m\nBS000,f\n"), HasSubstr("s.csv: line 3: subject 'bs000' stands twice"));
+    EXPECT_THAT(error("subject\nbs000\n"), HasSubstr("s.csv: column 'sex' is missing"));
+}
+
 }  // namespace
 }  // namespace mimik::database
