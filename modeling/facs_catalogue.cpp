@@ -35,6 +35,12 @@ std::string upper(std::string text) {
     return text;
 }
 
+// Far more than a catalogue has; a file of another kind must not fill the memory with complaints.
+constexpr std::size_t most_findings = 1000, most_points = 1000;
+constexpr double largest_weight = 10.0;
+
+struct TooManyFindings {};
+
 /// Collects findings while it reads; a value that is missing or wrong leaves its default.
 class Reader {
 public:
@@ -49,7 +55,8 @@ public:
     void only_keys(const toml::table& table, std::initializer_list<std::string_view> known) {
         for (const auto& [key, node] : table)
             if (std::find(known.begin(), known.end(), key.str()) == known.end())
-                error(node, fmt::format("unknown key '{}'; known here: {}", key.str(), fmt::join(known, ", ")));
+                error(node, fmt::format("unknown key {}; known here: {}", geometry::in_quotes(key.str()),
+                                        fmt::join(known, ", ")));
     }
     std::string text(const toml::table& table, const char* key, bool required = true) {
         const auto* node = table.get(key);
@@ -64,6 +71,13 @@ public:
     double number(const toml::node& node, const std::string& what) {
         if (const auto value = node.value<double>(); value && std::isfinite(*value)) return *value;
         error(node, what + " is not a number");
+        return 0;
+    }
+    /// From 0 to 999.
+    int small_number(const toml::node& node, const std::string& what) {
+        const double value = number(node, what);
+        if (value >= 0 && value < 1000 && value == std::floor(value)) return static_cast<int>(value);
+        error(node, fmt::format("{} is {}, not a whole number of 0 to 999", what, value));
         return 0;
     }
     std::pair<double, double> two(const toml::table& table, const char* key, bool required) {
@@ -100,8 +114,12 @@ public:
         double sum = 0;
         for (const auto& [key, weight] : *at) {
             if (!names.contains(key.str()))
-                error(weight, fmt::format("unknown landmark '{}'; known: {}", key.str(), fmt::join(names, ", ")));
-            place.at.emplace_back(std::string(key.str()), number(weight, std::string(key.str())));
+                error(weight, fmt::format("unknown landmark {}; known: {}", geometry::in_quotes(key.str()),
+                                          fmt::join(names, ", ")));
+            place.at.emplace_back(std::string(key.str()), number(weight, "a weight"));
+            if (std::abs(place.at.back().second) > largest_weight)
+                error(weight, fmt::format("weight {} is not between -{} and {}", place.at.back().second, largest_weight,
+                                          largest_weight));
             sum += place.at.back().second;
         }
         check_sides(*at, place);
@@ -148,7 +166,11 @@ public:
 
 private:
     void add(bool is_error, const toml::node& node, const std::string& what) {
-        findings_.push_back({is_error, static_cast<unsigned>(node.source().begin.line), what});
+        const auto line = static_cast<unsigned>(node.source().begin.line);
+        findings_.push_back({is_error, line, what});
+        if (findings_.size() < most_findings) return;
+        findings_.push_back({true, line, fmt::format("more than {} findings; is it a catalogue?", most_findings)});
+        throw TooManyFindings();
     }
     std::vector<LintFinding>& findings_;
 };
@@ -163,33 +185,32 @@ struct Parsed {
 void check_place(Reader& reader, const toml::table& entry, const CataloguePoint& point,
                  std::vector<std::pair<std::string, geometry::Point>>& placed) {
     const auto& marks = reference_landmarks();
+    const auto shown_name = geometry::in_quotes(point.name);
     const geometry::Point p = place(point.placement, marks, database::Side::left);
     const bool central = point.placement.lateral == 0.0 &&
                          std::all_of(point.placement.at.begin(), point.placement.at.end(),
                                      [&](const auto& term) { return marks.find(term.first) != nullptr; });
     if (!on_reference_face(p))
         reader.warn(
-            entry,
-            fmt::format("point '{}' lies off the reference face, {:.0f} mm to the left of and {:.0f} mm above the "
-                        "nose tip; make its offset smaller",
-                        point.name, p.x(), p.y()));
+            entry, fmt::format("point {} lies off the reference face, {:.0f} mm to the left of and {:.0f} mm above the "
+                               "nose tip; make its offset smaller",
+                               shown_name, p.x(), p.y()));
     if (!central && std::abs(p.x()) < 1.0)
         reader.error(entry,
-                     fmt::format("point '{}' and its mirror image fall together on the midline; write it with midline "
+                     fmt::format("point {} and its mirror image fall together on the midline; write it with midline "
                                  "landmarks and no lateral offset",
-                                 point.name));
+                                 shown_name));
     else if (p.x() < -1.0)
-        reader.error(
-            entry, fmt::format("point '{}' lies on the subject's right half; write points for the left half, the right "
-                               "one is their mirror image",
-                               point.name));
+        reader.error(entry,
+                     fmt::format("point {} lies on the subject's right half; write points for the left half, the right "
+                                 "one is their mirror image",
+                                 shown_name));
     for (const auto& [name, other] : placed)
         if ((other - p).head<2>().norm() < 1.0)
             reader.warn(
-                entry,
-                fmt::format("points '{}' and '{}' fall together on the reference face; one of them will be left out",
-                            point.name, name));
-    placed.emplace_back(point.name, p);
+                entry, fmt::format("points {} and {} fall together on the reference face; one of them will be left out",
+                                   shown_name, name));
+    placed.emplace_back(shown_name, p);
 }
 
 ActionUnit read_unit(Reader& reader, const toml::table& table) {
@@ -197,7 +218,7 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
         table, {"number", "name", "region", "sides", "muscles", "wrinkles", "arkit", "arkit_whole", "zone", "points"});
     ActionUnit unit;
     if (const auto* node = table.get("number"))
-        unit.number = static_cast<int>(reader.number(*node, "number"));
+        unit.number = reader.small_number(*node, "number");
     else
         reader.error(table, "'number' is missing");
     if (unit.number < 1 || unit.number > 99)
@@ -205,9 +226,9 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
     unit.name = reader.text(table, "name");
     const auto region = reader.text(table, "region"), sides = reader.text(table, "sides");
     if (region != "upper" && region != "lower")
-        reader.error(table, fmt::format("region '{}' is neither upper nor lower", region));
+        reader.error(table, fmt::format("region {} is neither upper nor lower", geometry::in_quotes(region)));
     if (sides != "paired" && sides != "central")
-        reader.error(table, fmt::format("sides '{}' is neither paired nor central", sides));
+        reader.error(table, fmt::format("sides {} is neither paired nor central", geometry::in_quotes(sides)));
     unit.lower_face = region != "upper";
     unit.central = sides == "central";
     unit.wrinkles = reader.text(table, "wrinkles", false);
@@ -247,18 +268,21 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
     bool muscle_point = false;
     reader.tables(table, "points", true, [&](const toml::table& entry) {
         reader.only_keys(entry, {"name", "kind", "at", "offset"});
+        if (unit.points.size() == most_points)
+            return reader.error(entry, fmt::format("more than {} points", most_points));
         CataloguePoint point;
         point.name = reader.text(entry, "name");
         const auto kind = reader.text(entry, "kind");
         if (kind != "muscle" && kind != "wrinkle")
-            reader.error(entry, fmt::format("kind '{}' is neither muscle nor wrinkle", kind));
+            reader.error(entry, fmt::format("kind {} is neither muscle nor wrinkle", geometry::in_quotes(kind)));
         point.kind = kind == "wrinkle" ? ControlKind::wrinkle : ControlKind::muscle;
         muscle_point = muscle_point || point.kind == ControlKind::muscle;
         const auto errors_before = reader.errors();
         point.placement = reader.placement(entry);
         if (reader.errors() == errors_before) check_place(reader, entry, point, placed);
         if (!names.insert(point.name).second)
-            reader.error(entry, fmt::format("point '{}' stands twice in AU{}", point.name, unit.number));
+            reader.error(entry,
+                         fmt::format("point {} stands twice in AU{}", geometry::in_quotes(point.name), unit.number));
         unit.points.push_back(std::move(point));
     });
     if (!muscle_point) reader.error(table, fmt::format("AU{} has no muscle point", unit.number));
@@ -266,16 +290,7 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
     return unit;
 }
 
-Parsed read(const std::string& text, std::vector<LintFinding>& findings) {
-    Parsed parsed;
-    toml::table document;
-    try {
-        document = toml::parse(text);
-    } catch (const toml::parse_error& e) {
-        findings.push_back({true, static_cast<unsigned>(e.source().begin.line), std::string(e.description())});
-        return parsed;
-    }
-    Reader reader(findings);
+void read_document(Reader& reader, const toml::table& document, Parsed& parsed) {
     reader.only_keys(document, {"schema", "sampling", "au", "emotion"});
     if (document["schema"].value_or(0) != 1) reader.error(document, "schema is not 1");
     if (const auto* sampling = document["sampling"].as_table()) {
@@ -303,13 +318,29 @@ Parsed read(const std::string& text, std::vector<LintFinding>& findings) {
         Emotion emotion{upper(reader.text(table, "name")), {}};
         if (const auto* list = table["units"].as_array())
             for (const auto& item : *list) {
-                const auto number = static_cast<int>(reader.number(item, "units"));
+                const auto number = reader.small_number(item, "units");
                 if (!numbers.contains(number)) reader.error(item, fmt::format("AU{} is not in this catalogue", number));
                 emotion.action_units.push_back(number);
             }
         if (emotion.action_units.empty()) reader.error(table, "'units' names no AU");
         parsed.emotions.push_back(std::move(emotion));
     });
+}
+
+Parsed read(const std::string& text, std::vector<LintFinding>& findings) {
+    Parsed parsed;
+    toml::table document;
+    try {
+        document = toml::parse(text);
+    } catch (const toml::parse_error& e) {
+        findings.push_back({true, static_cast<unsigned>(e.source().begin.line), std::string(e.description())});
+        return parsed;
+    }
+    try {
+        Reader reader(findings);
+        read_document(reader, document, parsed);
+    } catch (const TooManyFindings&) {  // the last of them says so
+    }
     std::stable_sort(findings.begin(), findings.end(),
                      [](const LintFinding& a, const LintFinding& b) { return a.line < b.line; });
     return parsed;
@@ -334,7 +365,7 @@ std::string_view to_string(ControlKind kind) {
 ControlKind parse_control_kind(const std::string& text) {
     for (const auto kind : {ControlKind::muscle, ControlKind::wrinkle, ControlKind::coverage, ControlKind::anchor})
         if (text == to_string(kind)) return kind;
-    throw InputError(fmt::format("kind '{}' is none of muscle, wrinkle, coverage, anchor", text));
+    throw InputError(fmt::format("kind {} is none of muscle, wrinkle, coverage, anchor", geometry::in_quotes(text)));
 }
 
 namespace {

@@ -107,7 +107,7 @@ std::string encode_region_labels(const RegionLabels& labels, const std::string& 
         for (int col = 0; col < labels.cols; ++col) {
             const auto& label = labels.label[static_cast<std::size_t>(row) * static_cast<std::size_t>(labels.cols) +
                                              static_cast<std::size_t>(col)];
-            if (!label.empty()) text += fmt::format("{},{},{}\n", row, col, label);
+            if (!label.empty()) text += fmt::format("{},{},{}\n", row, col, geometry::csv_field(label));
         }
     return text;
 }
@@ -117,9 +117,8 @@ RegionLabels read_region_labels(const std::filesystem::path& file, const preproc
     return read_region_labels(file, average.grid.rows, average.grid.cols);
 }
 
-RegionLabels read_region_labels(const std::filesystem::path& file, int rows, int cols) {
-    const auto text = geometry::read_text(file, 1 << 26);
-    geometry::CsvReader table(text, file.string());
+RegionLabels decode_region_labels(std::string_view text, const std::string& name, int rows, int cols) {
+    geometry::CsvReader table(text, name);
     const auto row_column = table.column("row"), col_column = table.column("col"),
                region_column = table.column("region");
     RegionLabels labels{rows, cols,
@@ -133,6 +132,10 @@ RegionLabels read_region_labels(const std::filesystem::path& file, int rows, int
             table.field(region_column);
     }
     return labels;
+}
+
+RegionLabels read_region_labels(const std::filesystem::path& file, int rows, int cols) {
+    return decode_region_labels(geometry::read_text(file, 1 << 26), file.string(), rows, cols);
 }
 
 std::vector<double> held_weights(const RegionLabels& labels, const preprocessing::AverageFace& average,

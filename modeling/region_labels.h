@@ -35,6 +35,8 @@ struct RegionLabels {
                                               const preprocessing::AverageFace& average);
 /// @throws InputError naming file, line and value; rows and cols must be those of the grid.
 [[nodiscard]] RegionLabels read_region_labels(const std::filesystem::path& file, int rows, int cols);
+/// The same in memory; `name` stands for the file.
+[[nodiscard]] RegionLabels decode_region_labels(std::string_view text, const std::string& name, int rows, int cols);
 
 /// How much of a displacement each vertex of a face keeps when the regions `held` stay still: 0 in them, rising
 /// smoothly to 1 over `border_mm` outside. Labels go to the face by the landmark spline and the nearest vertex of the

@@ -255,6 +255,36 @@ TEST(CatalogueLinter, reports_broken_toml_where_it_breaks) {
     EXPECT_EQ(findings[0].line, 2U);
 }
 
+TEST(CatalogueLinter, numbers_that_no_catalogue_has_are_errors_at_their_line) {
+    EXPECT_THAT(
+        only_finding(catalogue_with("{ name = \"x\", kind = \"muscle\", at = { chin = 1e300, nose_wing = -1e300, "
+                                    "mouth_corner = 1.0 } }"),
+                     12),
+        HasSubstr("findings: 3"));  // two weights, and their sum
+    const auto findings = lint_catalogue("schema = 1\n[[au]]\nnumber = 1e300\n");
+    EXPECT_EQ(findings.back().line, 3U);
+    EXPECT_EQ(findings.back().what, "number is 1e+300, not a whole number of 0 to 999");
+    EXPECT_THAT(only_finding(catalogue_with("{ name = \"x\", kind = \"muscle\", at = { nose_wing = nan } }"), 12),
+                HasSubstr("findings: 2"));  // no number, and the sum
+}
+
+TEST(CatalogueLinter, a_file_full_of_faults_costs_neither_memory_nor_patience) {
+    std::string text = "schema = 1\n";
+    for (int k = 0; k < 100'000; ++k) text += "key" + std::to_string(k) + " = 1\n";
+    const auto findings = lint_catalogue(text);
+    ASSERT_EQ(findings.size(), 1001U);
+    EXPECT_TRUE(std::any_of(findings.begin(), findings.end(),
+                            [](const auto& f) { return f.what.starts_with("more than 1000 findings"); }));
+    std::string points;  // all in one place: every pair would be worth a warning
+    for (int k = 0; k < 20'000; ++k)
+        points += "{ name = \"" + std::to_string(k) + "\", kind = \"muscle\", at = { mouth_corner = 1.0 } },\n";
+    EXPECT_EQ(lint_catalogue(catalogue_with(points)).size(), 1001U);
+    const std::string long_name(1'000'000, 'x');
+    EXPECT_LT(
+        only_finding(catalogue_with("{ name = \"y\", kind = \"" + long_name + "\", at = { chin = 1.0 } }"), 12).size(),
+        100U);
+}
+
 TEST(CatalogueReader, refuses_a_faulty_file_by_name_and_line) {
     try {
         (void)parse_catalogue(catalogue_with(R"(  { name = "x", kind = "bone", at = { nose_wing = 1.0 } },)"),

@@ -8,6 +8,7 @@
 #include "modeling/average_fingerprint.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
+#include "tests/support/thrown.h"
 
 namespace mimik::modeling {
 namespace {
@@ -83,6 +84,23 @@ TEST_F(Regions, labels_of_another_average_face_or_schema_are_refused) {
     EXPECT_THAT(refused("# mimik regions, schema 2, average face 0\nrow,col,region\n"), HasSubstr("schema is '2'"));
     geometry::write_atomically(file, "# drawn by hand\nrow,col,region\n0,0,mine\n");
     EXPECT_EQ(read_region_labels(file, average).label[0], "mine");
+}
+
+TEST_F(Regions, a_hostile_label_file_is_refused_with_line_column_and_value) {
+    const auto error = [](const std::string& text) {
+        return test::message_of([&] { (void)decode_region_labels(text, "l.csv", 4, 5); });
+    };
+    EXPECT_EQ(error("row,col,region\n3,4,nose\n"), "nothing was thrown");
+    for (const char* row : {"nan", "1e999", "-1", "0.5", "4", "2147483648"})
+        EXPECT_THAT(error("row,col,region\n0,0,nose\n" + std::string(row) + ",0,nose\n"), HasSubstr("l.csv: line 3: "))
+            << row;
+    EXPECT_THAT(error("row,col\n0,0\n"), HasSubstr("l.csv: column 'region' is missing"));
+    EXPECT_THAT(error("row,col,region\n0,0\n"), HasSubstr("l.csv: line 2: 2 fields"));
+}
+
+TEST_F(Regions, a_name_with_a_comma_comes_back_from_its_file) {
+    RegionLabels named{1, 2, {"nose, left", ""}};
+    EXPECT_EQ(decode_region_labels(encode_region_labels(named, "0123456789abcdef"), "l.csv", 1, 2).label, named.label);
 }
 
 TEST_F(Regions, a_held_region_keeps_nothing_and_the_face_far_from_it_everything) {
