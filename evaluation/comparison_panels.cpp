@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "animation/face_export.h"
 #include "evaluation/active_zone.h"
@@ -15,6 +14,7 @@
 #include "geometry/csv.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/json_values.h"
 #include "geometry/landmark_io.h"
 #include "geometry/mesh_io.h"
 #include "geometry/text.h"
@@ -174,12 +174,13 @@ private:
     void remove_earlier() const {
         std::error_code ignored;
         if (!fs::is_regular_file(file(description_file), ignored)) return;
-        const auto remove = [&](const Json& name) {
+        const auto remove = [&](const nlohmann::json& name) {
             if (name.is_string() && fs::path(name.get<std::string>()).filename() == name.get<std::string>())
                 fs::remove(file(name.get<std::string>()), ignored);
         };
         try {
-            const auto earlier = Json::parse(geometry::read_text(file(description_file)));
+            const auto text = geometry::read_text(file(description_file), geometry::most_json_bytes);
+            const auto earlier = geometry::parse_json(text, description_file);
             for (const auto& panel : earlier.at("panels")) {
                 for (const char* key : {"mesh", "landmarks", "controls"})
                     if (panel.contains(key)) remove(panel.at(key));

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "database/bnt.h"
 #include "database/hidden_subjects.h"
 #include "geometry/csv.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/json_values.h"
 #include "geometry/landmark_io.h"
 #include "geometry/text.h"
 
@@ -20,15 +20,9 @@ namespace mimik::figures {
 namespace {
 
 using geometry::Point;
+using geometry::shown;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
-
-/// A value for an error message. Lists and objects are not written out: they may be nested without end.
-std::string shown(const Json& value) {
-    if (value.is_array()) return "a list";
-    if (value.is_object()) return "an object";
-    return value.dump().substr(0, 60);
-}
 
 /// One JSON object whose keys are all asked for; finish() refuses the others.
 class Keys {
@@ -206,34 +200,16 @@ std::vector<Point> positions(const fs::path& file, const geometry::Mesh& mesh, g
     return points_mm;
 }
 
+// Each is drawn as a ball or an arrow of some hundred triangles.
+constexpr std::size_t most_marks = 100'000;
+constexpr std::uintmax_t most_table_bytes = std::uintmax_t{1} << 26;
+
 Point point_at(const geometry::CsvReader& table, const std::array<std::size_t, 3>& columns, double scale) {
     return scale * Point(table.number(columns[0]), table.number(columns[1]), table.number(columns[2]));
 }
 
-void add_controls(Panel& panel, const fs::path& file, double scale) {
-    const std::string text = geometry::read_text(file);
-    geometry::CsvReader table(text, file.string());
-    const std::array<std::size_t, 3> xyz = {table.column("x"), table.column("y"), table.column("z")};
-    const auto kind = table.column("kind");
-    MarkerSet muscles{.name = "muscle controls", .colour = muscle_colour};
-    MarkerSet wrinkles{.name = "wrinkle controls", .colour = wrinkle_colour};
-    while (table.next()) {
-        if (table.field(kind) != "muscle" && table.field(kind) != "wrinkle")
-            table.fail(fmt::format("kind is {}; give muscle or wrinkle", geometry::in_quotes(table.field(kind))));
-        (table.field(kind) == "muscle" ? muscles : wrinkles).positions_mm.push_back(point_at(table, xyz, scale));
-    }
-    for (auto* set : {&muscles, &wrinkles})
-        if (!set->positions_mm.empty()) panel.markers.push_back(std::move(*set));
-}
-
-void add_arrows(Panel& panel, const fs::path& file, double scale) {
-    const std::string text = geometry::read_text(file);
-    geometry::CsvReader table(text, file.string());
-    const std::array<std::size_t, 3> from = {table.column("x"), table.column("y"), table.column("z")};
-    const std::array<std::size_t, 3> to = {table.column("to_x"), table.column("to_y"), table.column("to_z")};
-    ArrowSet set{.name = "displacements"};
-    while (table.next()) set.arrows.push_back({point_at(table, from, scale), point_at(table, to, scale)});
-    panel.arrows.push_back(std::move(set));
+void refuse_one_too_many(const geometry::CsvReader& table, std::size_t count) {
+    if (count >= most_marks) table.fail(fmt::format("more than {} lines; draw fewer", most_marks));
 }
 
 Panel load_panel(const PanelDescription& description) {
@@ -248,7 +224,6 @@ Panel load_panel(const PanelDescription& description) {
     if (!description.texture.empty()) database::refuse_hidden_file(description.texture);
     auto face = read_face(description.mesh, description.unit);
     panel.mesh = std::move(face.mesh);
-    const double scale = geometry::millimetres_per(description.unit);
     if (!description.texture.empty()) {
         panel.texture = geometry::read_image(description.texture);
     } else if (description.textured) {
@@ -260,8 +235,13 @@ Panel load_panel(const PanelDescription& description) {
         panel.markers.push_back({.name = "landmarks",
                                  .colour = landmark_colour,
                                  .positions_mm = positions(description.landmarks, panel.mesh, description.unit)});
-    if (!description.controls.empty()) add_controls(panel, description.controls, scale);
-    if (!description.arrows.empty()) add_arrows(panel, description.arrows, scale);
+    if (!description.controls.empty())
+        for (auto& set : decode_controls(geometry::read_text(description.controls, most_table_bytes),
+                                         description.controls.string(), description.unit))
+            panel.markers.push_back(std::move(set));
+    if (!description.arrows.empty())
+        panel.arrows.push_back(decode_arrows(geometry::read_text(description.arrows, most_table_bytes),
+                                             description.arrows.string(), description.unit));
     for (const auto& marker : description.markers)
         panel.markers.push_back(
             {marker.name, marker.colour, marker.radius_mm, positions(marker.file, panel.mesh, description.unit)});
@@ -270,13 +250,40 @@ Panel load_panel(const PanelDescription& description) {
 
 }  // namespace
 
-FigureDescription decode_figure_description(const std::string& text, const std::string& name, const fs::path& folder) {
-    Json root;
-    try {
-        root = Json::parse(text);
-    } catch (const Json::exception& e) {
-        throw InputError(fmt::format("{}: is not JSON: {}", name, e.what()));
+std::vector<MarkerSet> decode_controls(std::string_view text, const std::string& name, geometry::LengthUnit unit) {
+    geometry::CsvReader table(text, name);
+    const double scale = geometry::millimetres_per(unit);
+    const std::array<std::size_t, 3> xyz = {table.column("x"), table.column("y"), table.column("z")};
+    const auto kind = table.column("kind");
+    MarkerSet muscles{.name = "muscle controls", .colour = muscle_colour};
+    MarkerSet wrinkles{.name = "wrinkle controls", .colour = wrinkle_colour};
+    while (table.next()) {
+        if (table.field(kind) != "muscle" && table.field(kind) != "wrinkle")
+            table.fail(fmt::format("kind is {}; give muscle or wrinkle", geometry::in_quotes(table.field(kind))));
+        refuse_one_too_many(table, muscles.positions_mm.size() + wrinkles.positions_mm.size());
+        (table.field(kind) == "muscle" ? muscles : wrinkles).positions_mm.push_back(point_at(table, xyz, scale));
     }
+    std::vector<MarkerSet> sets;
+    for (auto* set : {&muscles, &wrinkles})
+        if (!set->positions_mm.empty()) sets.push_back(std::move(*set));
+    return sets;
+}
+
+ArrowSet decode_arrows(std::string_view text, const std::string& name, geometry::LengthUnit unit) {
+    geometry::CsvReader table(text, name);
+    const double scale = geometry::millimetres_per(unit);
+    const std::array<std::size_t, 3> from = {table.column("x"), table.column("y"), table.column("z")};
+    const std::array<std::size_t, 3> to = {table.column("to_x"), table.column("to_y"), table.column("to_z")};
+    ArrowSet set{.name = "displacements"};
+    while (table.next()) {
+        refuse_one_too_many(table, set.arrows.size());
+        set.arrows.push_back({point_at(table, from, scale), point_at(table, to, scale)});
+    }
+    return set;
+}
+
+FigureDescription decode_figure_description(const std::string& text, const std::string& name, const fs::path& folder) {
+    const Json root = geometry::parse_json(text, name);
     FigureDescription description;
     Figure& page = description.page;
     Keys keys(root, name + ": ");
@@ -309,7 +316,8 @@ FigureDescription decode_figure_description(const std::string& text, const std::
 }
 
 FigureDescription read_figure_description(const fs::path& file) {
-    return decode_figure_description(geometry::read_text(file), file.string(), file.parent_path());
+    return decode_figure_description(geometry::read_text(file, geometry::most_json_bytes), file.string(),
+                                     file.parent_path());
 }
 
 Figure load_figure(const FigureDescription& description) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "figures/figure.h"
@@ -48,5 +49,10 @@ struct FigureDescription {
 
 /// Reads every file the description names. @throws InputError naming the file.
 [[nodiscard]] Figure load_figure(const FigureDescription& description);
+
+/// The tables that `controls` and `arrows` name, from memory. @throws InputError naming file, line, column and value.
+[[nodiscard]] std::vector<MarkerSet> decode_controls(std::string_view text, const std::string& name,
+                                                     geometry::LengthUnit unit);
+[[nodiscard]] ArrowSet decode_arrows(std::string_view text, const std::string& name, geometry::LengthUnit unit);
 
 }  // namespace mimik::figures

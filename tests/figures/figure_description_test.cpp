@@ -75,7 +75,7 @@ TEST(FigureDescription, every_key_reaches_its_field) {
 }
 
 TEST(FigureDescription, errors_name_the_file_the_key_and_the_value) {
-    EXPECT_THAT(error_in("{"), AllOf(HasSubstr("fig.json"), HasSubstr("not JSON")));
+    EXPECT_THAT(error_in("{"), AllOf(HasSubstr("fig.json"), HasSubstr("byte 2: the JSON is damaged")));
     EXPECT_THAT(error_in("[]"), HasSubstr("fig.json: is not an object"));
     EXPECT_THAT(error_in(R"({"panels": []})"), HasSubstr("'schema' is missing"));
     EXPECT_THAT(error_in(R"({"schema": 2, "panels": []})"), HasSubstr("schema is 2"));
@@ -86,7 +86,8 @@ TEST(FigureDescription, errors_name_the_file_the_key_and_the_value) {
                 AllOf(HasSubstr("fig.json: columns"), HasSubstr("\"two\"")));
     const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
     EXPECT_THAT(error_in(R"({"schema": 1, "panels": [], "title": )" + deep + "}"),
-                HasSubstr("title: a list has the wrong"));
+                HasSubstr("fig.json: the JSON nests deeper than 32 levels"));
+    EXPECT_THAT(error_in(R"({"schema": 1, "panels": [], "title": ["a"]})"), HasSubstr("title: a list has the wrong"));
     EXPECT_THAT(error_in(R"({"schema": 1, "columns": 1.5, "panels": []})"), HasSubstr("1.5 is not a whole number"));
     EXPECT_THAT(error_in(R"({"schema": 1, "columns": 5000000000, "panels": []})"), HasSubstr("out of range"));
     EXPECT_THAT(error_in(R"({"schema": 1, "background": "white", "panels": []})"),
@@ -103,6 +104,19 @@ TEST(FigureDescription, errors_name_the_file_the_key_and_the_value) {
                 HasSubstr("panels[0].markers[0]: 'file' is missing"));
     EXPECT_THAT(error_in(R"({"schema": 1, "panels": [{"unit": "inch"}]})"),
                 AllOf(HasSubstr("panels[0].unit"), HasSubstr("inch")));
+}
+
+TEST(FigureTables, errors_name_file_line_column_and_value) {
+    const auto controls = [](const std::string& text) {
+        return message_of([&] { (void)decode_controls(text, "c.csv", geometry::LengthUnit::millimetre); });
+    };
+    EXPECT_EQ(controls("x,y,z,kind\n1,2,3,muscle\n"), "nothing was thrown");
+    EXPECT_THAT(controls("x,y,z,kind\n1,nan,3,muscle\n"), HasSubstr("c.csv: line 2: y is 'nan'"));
+    EXPECT_THAT(controls("x,y,z,kind\n1,2,3,bone\n"), HasSubstr("c.csv: line 2: kind is 'bone'"));
+    std::string arrows = "x,y,z,to_x,to_y,to_z\n";
+    for (int k = 0; k < 100'001; ++k) arrows += "0,0,0,1,1,1\n";
+    EXPECT_THAT(message_of([&] { (void)decode_arrows(arrows, "a.csv", geometry::LengthUnit::millimetre); }),
+                HasSubstr("a.csv: line 100002: more than 100000 lines"));
 }
 
 /// A folder of its own that goes away with the test.
