@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "database/scan_id.h"
@@ -178,6 +179,37 @@ std::optional<Recognised> recognise_anatomical(std::string_view name) {
     return std::nullopt;
 }
 
+/// Pairs whose left and right lie the other way round than most pairs of the face, whatever they were called in the
+/// file and however the head is turned. In a tie the outer eye corners decide, else +x is the subject's left.
+std::vector<std::string> pairs_against_the_rest(const geometry::Landmarks& landmarks) {
+    constexpr std::string_view left = "_left";
+    struct Pair {
+        std::string stem;
+        geometry::Vector direction;
+    };
+    std::vector<Pair> pairs;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const auto& mark : landmarks.all()) {
+        const auto* other = mark.name.ends_with(left) ? landmarks.find(geometry::mirrored_name(mark.name)) : nullptr;
+        if (!other || mark.position_mm == other->position_mm) continue;
+        const geometry::Vector direction = (mark.position_mm - other->position_mm).normalized();
+        spread += direction * direction.transpose();
+        pairs.push_back({mark.name.substr(0, mark.name.size() - left.size()), direction});
+    }
+    if (pairs.empty()) return {};
+    // The line along which most of them lie, whichever way each is named.
+    geometry::Vector lateral = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+    const auto along = [&](const Pair& pair) { return lateral.dot(pair.direction) > 0; };
+    const auto agreeing = 2 * std::count_if(pairs.begin(), pairs.end(), along);
+    const auto all = static_cast<std::ptrdiff_t>(pairs.size());
+    const auto eyes = std::find_if(pairs.begin(), pairs.end(), [](const Pair& p) { return p.stem == "eye_outer"; });
+    if (agreeing != all ? agreeing < all : eyes != pairs.end() ? !along(*eyes) : lateral.x() < 0) lateral = -lateral;
+    std::vector<std::string> against;
+    for (auto& pair : pairs)
+        if (!along(pair)) against.push_back(std::move(pair.stem));
+    return against;
+}
+
 /// Names all marks; where a label's side has to be judged by position, all pairs vote.
 geometry::Landmarks renamed(const geometry::Landmarks& raw, const std::vector<std::optional<Recognised>>& recognised,
                             SideReport* report) {
@@ -210,7 +242,6 @@ geometry::Landmarks renamed(const geometry::Landmarks& raw, const std::vector<st
             ++sides.pairs_agreeing;
         } else {
             ++sides.pairs_disagreeing;
-            sides.swapped_pairs.emplace_back(pair.stem);
         }
     }
 
@@ -228,8 +259,10 @@ geometry::Landmarks renamed(const geometry::Landmarks& raw, const std::vector<st
         }
         result.push_back(std::move(mark));
     }
+    geometry::Landmarks named(std::move(result));
+    sides.swapped_pairs = pairs_against_the_rest(named);
     if (report) *report = std::move(sides);
-    return geometry::Landmarks(std::move(result));
+    return named;
 }
 
 /// 0 or 1 where the labels are exactly the numbers of the 68-point scheme counted from there; else empty.
@@ -328,11 +361,20 @@ geometry::Landmarks from_any_labels(const geometry::Landmarks& raw, SideReport* 
                                      : std::optional(Recognised{it->stem, it->side, it->side != Side::both}));
         }
     } else {
+        // "nose_saddle_left" is our name and, but for its spelling, the Bosphorus label of the other side: it is ours
+        // where it is spelt as ours and no other label of the file is Bosphorus'.
+        bool bosphorus = false;
         for (const auto& mark : raw.all()) {
             const std::string name = as_name(mark.name);
             auto known = recognise_bosphorus(name);
+            bosphorus = bosphorus || (known && known->side_is_the_labels && known->stem != "nose_saddle");
             recognised.push_back(known ? known : recognise_anatomical(name));
         }
+        const auto ours = geometry::standard_landmark_names();
+        for (std::size_t i = 0; i < recognised.size(); ++i)
+            if (!bosphorus && std::find(ours.begin(), ours.end(), raw.all()[i].name) != ours.end()) {
+                if (auto& known = recognised[i]) known->side_is_the_labels = false;
+            }
     }
     return renamed(raw, recognised, report);
 }

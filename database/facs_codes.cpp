@@ -54,7 +54,7 @@ FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
             throw InputError(fmt::format("{}: more than {} lines; is it the right file?", name, max_lines));
         const auto line = geometry::trimmed(lines.line());
         const auto arrow = line.find("->");
-        if (line.empty() || (arrow == std::string_view::npos && lines.number() <= 2)) continue;  // the two header lines
+        if (line.empty()) continue;
         if (arrow != std::string_view::npos) {
             auto scan = geometry::trimmed(line.substr(0, arrow));
             scan = scan.substr(0, scan.find('.'));  // some lists name the file
@@ -65,6 +65,7 @@ FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
                 continue;
             }
         }
+        if (lines.number() <= 2) continue;  // the two header lines, which may show the form with its arrow
         if (not_understood++ < max_remarks)
             result.remarks.push_back(
                 fmt::format("{}: line {}: {} is not of the form 'bs000_LFAU_12_0 -> 6B+12C'; the line is left out",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -137,9 +138,14 @@ void read_lists(ScanDatabase& database, const fs::path& named_root) {
 
 /// Landmarks under our names; nothing if there are none or they cannot be read (load() says why).
 std::optional<geometry::Landmarks> landmarks_if_readable(const ScanEntry& entry) {
-    if (lower_case(entry.landmarks_file.extension().string()) != ".lm3") return std::nullopt;
+    const auto& file = entry.landmarks_file;
+    const std::string extension = lower_case(file.extension().string());
     try {
-        return from_bosphorus_labels(read_lm3(entry.landmarks_file));
+        if (file.empty()) return std::nullopt;
+        if (extension == ".lm3") return from_bosphorus_labels(read_lm3(file));
+        // Slicer's files need the scan: it tells which of two frames they are in.
+        if (extension == ".fcsv" || extension == ".json") return load(entry).landmarks;
+        return from_any_labels(geometry::read_landmarks(file, {}, entry.unit));
     } catch (const InputError&) {
         return std::nullopt;
     }
@@ -149,28 +155,35 @@ std::optional<geometry::Landmarks> landmarks_if_readable(const ScanEntry& entry)
 void decide_code_sides(ScanDatabase& database) {
     auto& sides = database.code_sides;
     std::map<std::string, std::optional<geometry::Landmarks>> neutrals;  // by subject, in lower case
+    std::set<std::string> other_subjects;
     for (const auto& entry : database.scans) {
         if (entry.id.side() == Side::both || entry.id.group == "UFAU") continue;
-        const auto [it, is_new] = neutrals.try_emplace(lower_case(entry.id.subject));
+        const auto subject = lower_case(entry.id.subject);
+        const auto [it, is_new] = neutrals.try_emplace(subject);
         if (is_new)
             for (const auto* neutral : database.neutrals(entry.id.subject))
                 if (!it->second) it->second = landmarks_if_readable(*neutral);
-        const auto expression = landmarks_if_readable(entry);
-        const Side moved = it->second && expression ? decide_side(*it->second, *expression).side : Side::both;
+        const auto expression = it->second ? landmarks_if_readable(entry) : std::nullopt;
+        const Side moved = expression ? decide_side(*it->second, *expression).side : Side::both;
         ++(moved == Side::both ? sides.undecided : moved == entry.id.side() ? sides.own_side : sides.other_side);
+        if (moved == opposite(entry.id.side())) other_subjects.insert(subject);
     }
-    if (sides.other_side == 0) return;
-    sides.swapped = sides.other_side >= 2 * sides.own_side;
+    // Two scans of one subject may be two slips of one hand.
+    constexpr int enough_votes = 3;
+    const bool most = sides.other_side > 0 && sides.other_side >= 2 * sides.own_side;
+    sides.swapped = most && (sides.other_side >= enough_votes || other_subjects.size() >= 2);
     if (sides.swapped) {
         for (auto& entry : database.scans) entry.id = entry.id.mirrored();
         std::sort(database.scans.begin(), database.scans.end(),
                   [](const auto& a, const auto& b) { return a.id < b.id; });
     }
-    database.remarks.push_back(
-        fmt::format("one-sided codes: {} scans move the subject's own side, {} the other, {} are undecided; {}",
-                    sides.own_side, sides.other_side, sides.undecided,
-                    sides.swapped ? "12L in file names is taken as the subject's right"
-                                  : "12L in file names is taken as the subject's left"));
+    const bool unknown = sides.undecided > 0 && sides.own_side == 0;
+    if (sides.other_side == 0 && !unknown) return;
+    database.remarks.push_back(fmt::format(
+        "one-sided codes: {} scans move the subject's own side, {} the other, {} are undecided; 12L in file names is "
+        "taken as the subject's {}{}",
+        sides.own_side, sides.other_side, sides.undecided, sides.swapped ? "right" : "left",
+        most && !sides.swapped ? fmt::format(": to turn all names takes {} scans or two subjects", enough_votes) : ""));
 }
 
 geometry::RangeScan read_scan(const ScanEntry& entry) {
