@@ -32,6 +32,29 @@ void add_common_options(CLI::App& command, Common& common) {
     command.parse_complete_callback([&common] { geometry::set_thread_count(common.threads); });
 }
 
+void check_by_option(const OptionOfField& options, const std::function<void()>& check) {
+    try {
+        check();
+    } catch (const InputError& e) {
+        const std::string message = e.what();
+        const auto it = options.find(message.substr(0, message.find(' ')));
+        if (it == options.end()) throw;
+        throw InputError(fmt::format("{}: {}", it->second, message));
+    }
+}
+
+void add_seed_option(CLI::App& command, std::uint64_t& seed) {
+    command.add_option("--seed", seed, "Same seed, same result")
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+                // Read as a number without a sign, -1 would be the largest there is.
+                return text.starts_with('-') ? fmt::format("the seed is {}; give a whole number of 0 or more", text)
+                                             : std::string();
+            },
+            "", "seed"))
+        ->capture_default_str();
+}
+
 int run(CLI::App& app, int argc, char** argv, const int& exit_code) {
     const auto report = [&](const std::exception& e, int code) {
         std::cerr << app.get_name() << ": " << e.what() << '\n';

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,16 @@ struct Common {
 
 /// Adds --version, --json, --quiet, --threads to a command; the thread count is applied before its callback.
 void add_common_options(CLI::App& command, Common& common);
+
+/// Which option sets a field of an Options struct.
+using OptionOfField = std::map<std::string, std::string>;
+
+/// Runs a check that refuses an option by its field's name ("spacing_mm is 0; ...") and puts before it what was typed:
+/// "--spacing: spacing_mm is 0; ...".
+void check_by_option(const OptionOfField& options, const std::function<void()>& check);
+
+/// --seed: a whole number of 0 or more.
+void add_seed_option(CLI::App& command, std::uint64_t& seed);
 
 /// Done, done with failures that were listed, bad input, no numerical answer.
 enum ExitCode : int { exit_done = 0, exit_done_with_failures = 1, exit_bad_input = 2, exit_no_answer = 3 };

@@ -49,7 +49,12 @@ preprocessing::QualitySheetReport draw_sheets(const Arguments& arguments) {
 
 int run(Arguments& arguments) {
     const auto database = database::open_database(arguments.database);
-    arguments.options.check();
+    check_by_option({{"spike_mm", "--spike-mm"},
+                     {"max_jump_mm", "--max-jump-mm"},
+                     {"max_edge_mm", "--max-edge-mm"},
+                     {"min_part", "--min-part"},
+                     {"trim", "--trim"}},
+                    [&] { arguments.options.check(); });
     preprocessing::check_workspace_place(database, arguments.output);
     const auto scans = preprocessing::selected_scans(database, arguments.options);
     if (arguments.dry_run) {

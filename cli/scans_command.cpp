@@ -200,6 +200,9 @@ void print_findings(const std::vector<const ScanEntry*>& scans, const CatalogueR
         const auto& summary = result.summaries[i];
         if (!summary.checked && !summary.error.empty())
             std::cout << fmt::format("\n{}: unreadable: {}\n", scans[i]->id.name(), summary.error);
+        if (notes && !summary.checked)  // the doctor says the same with a mend
+            for (const auto& remark : summary.remarks)
+                std::cout << fmt::format("\n{}: {}\n", scans[i]->id.name(), remark);
         for (const auto& finding : summary.findings)
             if (notes || finding.severity != Severity::note)
                 std::cout << fmt::format("\n{}: {} ({}): {}\n    at   {}\n    mend {}\n", scans[i]->id.name(),
@@ -211,6 +214,9 @@ void print_findings(const std::vector<const ScanEntry*>& scans, const CatalogueR
 int run(Request& request) {
     if (!request.side.empty()) request.selection.side = parse_side(request.side);
     request.catalogue.use_cache = !request.no_catalogue;
+    check_by_option(
+        {{"max_hole_mm", "--max-hole-mm"}, {"spike_mm", "--spike-mm"}, {"landmark_off_scan_mm", "--landmark-off-mm"}},
+        [&] { request.catalogue.doctor.check(); });
     const auto database = open_database(request.root);
     const auto scans = select(database, request.selection);
     CatalogueResult result;
@@ -239,7 +245,9 @@ int run(Request& request) {
         }
         if (request.catalogue.check) std::cout << fmt::format("\n{} of {} scans have errors\n", bad, scans.size());
     }
-    return request.catalogue.check && bad > 0 ? exit_done_with_failures : exit_done;
+    const bool unreadable = std::any_of(result.summaries.begin(), result.summaries.end(),
+                                        [](const ScanSummary& s) { return !s.error.empty(); });
+    return unreadable || (request.catalogue.check && bad > 0) ? exit_done_with_failures : exit_done;
 }
 
 }  // namespace
@@ -260,7 +268,8 @@ void add_scans_command(CLI::App& app, int& exit_code) {
     command->add_flag("--list", request->list, "One line per scan, and every note (as when scans are selected)");
     command->add_flag("--no-catalogue", request->no_catalogue, "Read every scan; leave the user's cache alone");
     auto& doctor = request->catalogue.doctor;
-    command->add_option("--max-hole-mm", doctor.max_hole_mm, "Larger holes get a warning")->capture_default_str();
+    command->add_option("--max-hole-mm", doctor.max_hole_mm, "A hole that takes more of the skin gets a warning")
+        ->capture_default_str();
     command->add_option("--spike-mm", doctor.spike_mm, "Points further off their neighbourhood are spikes")
         ->capture_default_str();
     command

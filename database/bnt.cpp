@@ -22,9 +22,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "a .bnt is read and written as it lies in memory");
 
-constexpr std::size_t fixed_header_bytes = 14;    // rows, cols, background, length of the texture name
-constexpr std::uintmax_t max_cells = 50'000'000;  // 2 GB; a Bosphorus scan has about 50,000
-constexpr double farthest_mm = 1e6;               // scanners of faces look a few metres far
+constexpr std::size_t fixed_header_bytes = 14;   // rows, cols, background, length of the texture name
+constexpr std::uintmax_t max_cells = 5'000'000;  // 200 MB; a Bosphorus scan has about 50,000
+constexpr double farthest_mm = 1e6;              // scanners of faces look a few metres far
 constexpr std::size_t longest_header_bytes = fixed_header_bytes + 65535 + 4;
 
 template <typename T>

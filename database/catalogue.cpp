@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raised whenever summaries or checks change their meaning: older catalogues are then built anew.
-constexpr int catalogue_version = 1;
+constexpr int catalogue_version = 2;
 
 // As SQLite keeps them: a file that has anything else, such as a view or a trigger, is none of ours.
 constexpr const char* about_table = "CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL)";
@@ -142,10 +142,20 @@ const ScanEntry* neutral_of(const ScanDatabase& database, const ScanEntry& entry
     return nullptr;
 }
 
+/// Rows of a manifest may share a scan file.
+std::string key_of(const ScanEntry& entry) { return entry.scan_file.string() + "|" + entry.id.name(); }
+
 std::string state_of(const ScanEntry& entry) {
-    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", entry.id.name(), static_cast<int>(entry.unit), stamp(entry.scan_file),
-                       entry.landmarks_file.string(), stamp(entry.landmarks_file), stamp(entry.landmarks2d_file),
-                       entry.texture_file.string(), stamp(entry.texture_file));
+    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", entry.id.name(), static_cast<int>(entry.layout),
+                       static_cast<int>(entry.unit), stamp(entry.scan_file), entry.landmarks_file.string(),
+                       stamp(entry.landmarks_file), stamp(entry.landmarks2d_file), entry.texture_file.string(),
+                       stamp(entry.texture_file));
+}
+
+/// With the files that only the scan file names: they may come, go or change while it stays.
+std::string state_with(std::string state, const ScanSummary& summary) {
+    for (const auto& file : summary.files_looked_for) state += "|" + stamp(file);
+    return state;
 }
 
 std::string check_state_of(const ScanDatabase& database, const ScanEntry& entry, const DoctorOptions& o) {
@@ -165,6 +175,7 @@ std::string to_json(const ScanSummary& s) {
                  {"points", s.points},
                  {"landmarks", s.landmarks},
                  {"remarks", s.remarks},
+                 {"files_looked_for", s.files_looked_for},
                  {"error", s.error}});
 }
 
@@ -177,6 +188,7 @@ ScanSummary summary_from_json(const std::string& text) {
     s.points = geometry::whole_number_below(most, json.at("points"), "points");
     s.landmarks = json.at("landmarks").get<std::vector<std::string>>();
     s.remarks = json.at("remarks").get<std::vector<std::string>>();
+    s.files_looked_for = json.at("files_looked_for").get<std::vector<std::string>>();
     s.error = json.at("error").get<std::string>();
     return s;
 }
@@ -247,9 +259,10 @@ void write_all(Cache& cache, const std::map<std::string, Remembered>& changed, c
 std::optional<ScanSummary> recall(const Remembered& row, const std::string& state, const std::string& check_state,
                                   bool check) {
     const bool checked = row.check_state == check_state;
-    if (row.state != state || (check && !checked)) return std::nullopt;
+    if (!row.state.starts_with(state) || (check && !checked)) return std::nullopt;
     try {
         ScanSummary summary = summary_from_json(row.summary);
+        if (row.state != state_with(state, summary)) return std::nullopt;
         if (checked) summary.findings = findings_from_json(row.findings);
         summary.checked = checked;
         return summary;
@@ -265,6 +278,7 @@ void describe(const LoadedScan& loaded, ScanSummary& summary) {
     for (const auto& p : loaded.scan.points_mm) summary.points += p.allFinite() ? 1U : 0U;
     for (const auto& mark : loaded.landmarks.all()) summary.landmarks.push_back(mark.name);
     summary.remarks = loaded.remarks;
+    for (const auto& file : loaded.files_looked_for) summary.files_looked_for.push_back(file.string());
 }
 
 /// Opens the scan once for summary and doctor. A bad scan must not stop the rest, whatever it throws.
@@ -380,7 +394,7 @@ CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntr
     geometry::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const ScanEntry& entry = *scans[i];
-            keys[i] = entry.scan_file.string();
+            keys[i] = key_of(entry);
             states[i] = state_of(entry);
             check_states[i] = check_state_of(database, entry, options.doctor);
             if (const auto it = remembered.find(keys[i]); it != remembered.end())
@@ -401,14 +415,15 @@ CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntr
     std::map<std::string, Remembered> changed;
     for (std::size_t i = 0; i < count; ++i) {
         ++(known[i] ? result.scans_remembered : result.scans_read);
-        if (known[i]) continue;
-        Remembered row{states[i], to_json(result.summaries[i]), options.check ? check_states[i] : std::string(),
-                       to_json(result.summaries[i].findings)};
+        // What a scan that cannot be read would have looked for is not known.
+        if (known[i] || !result.summaries[i].error.empty()) continue;
+        Remembered row{state_with(states[i], result.summaries[i]), to_json(result.summaries[i]),
+                       options.check ? check_states[i] : std::string(), to_json(result.summaries[i].findings)};
         changed[keys[i]] = std::move(row);
     }
     // Scans that left the database leave the catalogue.
     std::vector<std::string> gone;
-    for (const auto& entry : database.scans) remembered.erase(entry.scan_file.string());
+    for (const auto& entry : database.scans) remembered.erase(key_of(entry));
     gone.reserve(remembered.size());
     for (const auto& [key, row] : remembered) gone.push_back(key);
     if (result.file.empty() || (changed.empty() && gone.empty())) return result;

@@ -16,11 +16,12 @@ namespace mimik::database {
 struct ScanSummary {
     int rows = 0;  ///< 0: not organised
     int cols = 0;
-    std::size_t points = 0;              ///< measured
-    std::vector<std::string> landmarks;  ///< our names
-    std::vector<std::string> remarks;    ///< what the self-checks of load() found
-    std::string error;                   ///< why the scan cannot be loaded; empty: it can
-    bool checked = false;                ///< the doctor has looked at it: `findings` says what it found
+    std::size_t points = 0;                     ///< measured
+    std::vector<std::string> landmarks;         ///< our names
+    std::vector<std::string> remarks;           ///< what the self-checks of load() found
+    std::string error;                          ///< why the scan cannot be loaded; empty: it can
+    std::vector<std::string> files_looked_for;  ///< that the scan file names: image, material file
+    bool checked = false;                       ///< the doctor has looked at it: `findings` says what it found
     std::vector<Finding> findings;
 
     [[nodiscard]] std::vector<std::string> missing_landmarks() const;  ///< of the 22 regular ones
@@ -48,9 +49,10 @@ struct CatalogueResult {
 };
 
 /// The catalogue of a database is an SQLite file in the user's cache, one per database (named after its absolute path),
-/// never in the database. A scan is opened again when the time or size of one of its files, its unit, its name or (for
-/// the doctor) the options have changed. A catalogue that is damaged is built anew; one that is locked or cannot be
-/// written is done without: it is never a reason to fail. Scans are opened in parallel.
+/// never in the database. A scan is opened again when the time or size of one of its files (also of those that the scan
+/// file names), its unit, its name or (for the doctor) the options have changed, and where it could not be read. A
+/// catalogue that is damaged is built anew; one that is locked or cannot be written is done without: it is never a
+/// reason to fail. Scans are opened in parallel.
 [[nodiscard]] CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntry* const> scans,
                                         const CatalogueOptions& options = {});
 

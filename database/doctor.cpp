@@ -13,6 +13,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/json_values.h"
+#include "geometry/landmark_io.h"
 
 namespace mimik::database {
 namespace {
@@ -50,6 +51,11 @@ std::optional<double> distance_mm(const Landmarks& marks, std::string_view a, st
     return p && q ? std::optional((p->position_mm - q->position_mm).norm()) : std::nullopt;
 }
 
+std::string counted(int count, std::string_view word) {
+    return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
+std::string text_of(const Point& p) { return fmt::format("({:.0f}, {:.0f}, {:.0f})", p.x(), p.y(), p.z()); }
+
 /// Size against the adult mean (3D Facial Norms, men and women together), by the first distance that can be measured.
 std::optional<double> size_ratio(const Landmarks& marks) {
     struct Norm {
@@ -65,79 +71,81 @@ std::optional<double> size_ratio(const Landmarks& marks) {
     return std::nullopt;
 }
 
-void check_unit(const LoadedScan& loaded, const DoctorOptions& options, Report& report) {
-    auto ratio = size_ratio(loaded.landmarks);
-    std::string evidence = "its landmarks are";
-    if (!ratio) {
-        // Without landmarks: the box around the scan; a face with hair and neck has 200 to 350 mm across.
-        Eigen::AlignedBox3d box;
-        for (const auto& p : loaded.scan.points_mm)
-            if (p.allFinite()) box.extend(p);
-        ratio = box.diagonal().norm() / 270.0;
-        evidence = "it is";
-    }
-    if (*ratio >= options.min_size_ratio && *ratio <= options.max_size_ratio) return;
-    struct Unit {
-        double mm;
-        const char *name, *mend;
-    };
-    static constexpr std::array<Unit, 3> units = {
-        {{10, "centimetres", "add unit=cm to manifest.csv, or multiply all coordinates by 10"},
-         {1000, "metres", "add unit=m to manifest.csv, or multiply all coordinates by 1000"},
-         {25.4, "inches", "multiply all coordinates of scan and landmarks by 25.4"}}};
-    const std::string what = fmt::format("{} {:.3g} times the size of an adult face", evidence, *ratio);
-    for (const auto& unit : units)
-        if (*ratio * unit.mm >= options.min_size_ratio && *ratio * unit.mm <= options.max_size_ratio)
-            return report.add(Severity::error, "unit", what + ": looks like " + unit.name, unit.mend);
-    report.add(Severity::error, "unit", what, "convert scan and landmarks to millimetres, and check the landmarks");
+/// A face with hair and neck has 200 to 350 mm across.
+double box_ratio(const geometry::RangeScan& scan) {
+    Eigen::AlignedBox3d box;
+    for (const auto& p : scan.points_mm)
+        if (p.allFinite()) box.extend(p);
+    return box.diagonal().norm() / 270.0;
 }
 
-/// Axes of the head from its landmarks: lateral (to the subject's left), up, out of the face.
-struct HeadAxes {
-    Vector lateral, up, out;
-};
-std::optional<HeadAxes> head_axes(const Landmarks& marks) {
-    const auto mean = [&](std::initializer_list<std::string_view> names) -> std::optional<Point> {
-        Point sum = Point::Zero();
-        for (const auto name : names) {
-            const auto* mark = marks.find(name);
-            if (!mark) return std::nullopt;
-            sum += mark->position_mm;
-        }
-        return sum / static_cast<double>(names.size());
+void check_unit(const LoadedScan& loaded, const DoctorOptions& options, Report& report) {
+    const auto marks = size_ratio(loaded.landmarks);
+    const double scan = box_ratio(loaded.scan);
+    // Hair, shoulders and strays make the box larger, a crop smaller, but not by that: then one file has another unit.
+    constexpr double most_apart = 4;
+    const bool apart = marks && (*marks * most_apart < scan || *marks > most_apart * scan);
+    const auto fits = [&](double ratio) { return ratio >= options.min_size_ratio && ratio <= options.max_size_ratio; };
+    if (!apart && fits(marks.value_or(scan))) return;
+
+    const bool scan_alone = apart && fits(*marks);
+    const double ratio = !marks || scan_alone ? scan : *marks;
+    std::string what = fmt::format("{} {:.3g} times the size of an adult face", marks ? "its landmarks are" : "it is",
+                                   marks.value_or(scan));
+    if (apart) what += fmt::format(", but the scan {:.3g} times", scan);
+    const char* coordinates = !marks       ? "all coordinates"
+                              : scan_alone ? "the coordinates of the scan"
+                              : apart      ? "the coordinates of the landmarks"
+                                           : "all coordinates of scan and landmarks";
+    const std::string where = apart && !scan_alone ? loaded.entry.landmarks_file.string() : std::string();
+
+    struct Unit {
+        double mm;
+        const char *name, *of_manifest;
     };
-    const auto eyes = mean({"eye_outer_left", "eye_outer_right", "eye_inner_left", "eye_inner_right"});
-    const auto mouth = mean({"mouth_corner_left", "mouth_corner_right"});
-    const auto nose = mean({"nose_tip"});
-    const auto left = mean({"eye_outer_left", "eye_inner_left", "mouth_corner_left"});
-    const auto right = mean({"eye_outer_right", "eye_inner_right", "mouth_corner_right"});
-    if (!eyes || !mouth || !nose || !left || !right) return std::nullopt;
-    HeadAxes axes;
-    axes.lateral = (*left - *right).normalized();
-    axes.up = *eyes - *mouth;
-    axes.up = (axes.up - axes.lateral * axes.lateral.dot(axes.up)).normalized();
-    // The nose tip stands before the plane of eyes and mouth corners whatever the names are.
-    Vector out = *nose - (*eyes + *mouth) / 2;
-    out -= axes.lateral * axes.lateral.dot(out);
-    axes.out = (out - axes.up * axes.up.dot(out)).normalized();
-    if (!axes.lateral.allFinite() || !axes.up.allFinite() || !axes.out.allFinite()) return std::nullopt;
-    return axes;
+    static constexpr std::array<Unit, 3> units = {
+        {{10, "centimetres", "cm"}, {1000, "metres", "m"}, {25.4, "inches", nullptr}}};
+    const auto* unit = std::min_element(units.begin(), units.end(), [&](const Unit& a, const Unit& b) {
+        return std::abs(std::log(ratio * a.mm)) < std::abs(std::log(ratio * b.mm));
+    });
+    const double slack = scan_alone ? 2 : 1;  // a box is no measure of a face
+    if (ratio * unit->mm < options.min_size_ratio / slack || ratio * unit->mm > options.max_size_ratio * slack)
+        return report.add(Severity::error, "unit", what,
+                          fmt::format("convert {} to millimetres, and check the landmarks", coordinates), where);
+    // The table has one unit for both files.
+    const bool in_table = !apart && loaded.entry.layout == DatabaseLayout::manifest && unit->of_manifest != nullptr;
+    report.add(
+        Severity::error, "unit",
+        fmt::format("{}: {} like {}", what, apart && !scan_alone ? "the landmarks look" : "looks", unit->name),
+        fmt::format("{}multiply {} by {}",
+                    in_table ? fmt::format("put {} in the column unit of manifest.csv, or ", unit->of_manifest) : "",
+                    coordinates, unit->mm),
+        where);
 }
 
 void check_frame(const LoadedScan& loaded, Report& report) {
     const auto& found = loaded.checks.correlations;
     const auto negative = [](const std::optional<double>& value) { return value && *value < 0; };
-    if (negative(found.x_u) || (negative(found.x_column) && !found.x_u))
-        report.add(Severity::error, "frame",
-                   fmt::format("x falls while the {} grows (correlation {:.2f}): x is mirrored",
-                               found.x_u ? "texture's u" : "column", found.x_u ? *found.x_u : *found.x_column),
-                   "change the sign of every x (scan and landmarks): +x is the subject's left, right in the image");
-    if (negative(found.y_v) || (negative(found.y_row) && !found.y_v))
-        report.add(
-            Severity::error, "frame",
-            fmt::format("y falls while the {} goes up (correlation {:.2f})", found.y_v ? "texture" : "row",
-                        found.y_v ? *found.y_v : *found.y_row),
-            "change the sign of every y (scan and landmarks), or turn the rows over: +y is up, row 0 the lowest");
+    const auto check = [&](const std::optional<double>& by_texture, const std::optional<double>& by_lattice,
+                           const char* what, const char* of_texture, const char* of_lattice, const char* mend,
+                           const char* turn) {
+        if (!negative(by_texture) && !negative(by_lattice)) return;
+        // The texture is the better witness of a mirrored coordinate; without it the lattice must do.
+        const bool mirrored = negative(by_texture) || !by_texture;
+        report.add(mirrored ? Severity::error : Severity::warning, "frame",
+                   fmt::format(
+                       "{} falls while the {} (correlation {:.2f}){}", what,
+                       negative(by_texture) ? of_texture : of_lattice, negative(by_texture) ? *by_texture : *by_lattice,
+                       mirrored ? fmt::format(": {} is mirrored", what)
+                                : std::string(", though not against the texture: the lattice is stored the other way")),
+                   mirrored ? mend : turn);
+    };
+    check(found.x_u, found.x_column, "x", "texture's u grows", "column grows",
+          "change the sign of every x (scan and landmarks): +x is the subject's left, right in the image",
+          "write every row of the lattice the other way round: x grows with the column");
+    check(found.y_v, found.y_row, "y", "texture goes up", "row goes up",
+          "change the sign of every y (scan and landmarks), or turn the rows over: +y is up, row 0 the lowest",
+          "write the rows of the lattice the other way round: row 0 is the lowest");
 
     const auto axes = head_axes(loaded.landmarks);
     if (!axes) return;
@@ -278,17 +286,22 @@ void check_surface(const LoadedScan& loaded, const DoctorOptions& options, Repor
         report.add(Severity::warning, "points", fmt::format("has only {} measured points", valid),
                    "scan again, or export the scan at full resolution");
 
-    if (const auto holes = find_holes(scan); !holes.judged)
+    const auto holes = find_holes(scan);
+    if (!holes.judged)
         report.add(Severity::note, "holes", "is a bare cloud: holes cannot be judged",
                    "give the scan in rows or as a mesh to have them found");
+    else if (const auto skin = worst_skin_hole(holes, loaded.landmarks); skin.size_mm > options.max_hole_mm)
+        report.add(
+            Severity::warning, "holes",
+            fmt::format("{}, one of them {:.1f} mm across on the skin at {} mm, away from eyes, brows, nostrils, "
+                        "lips and chin",
+                        counted(holes.count, "hole"), skin.size_mm, text_of(skin.at_mm)),
+            "preprocessing bridges it or keeps it as a mask; scan again if it lies where the expression moves");
     else if (holes.count > 0)
-        report.add(holes.largest_mm > options.max_hole_mm ? Severity::warning : Severity::note, "holes",
-                   fmt::format("{} hole{}, the largest {:.1f} mm across at ({:.0f}, {:.0f}, {:.0f}) mm", holes.count,
-                               holes.count == 1 ? "" : "s", holes.largest_mm, holes.largest_at_mm.x(),
-                               holes.largest_at_mm.y(), holes.largest_at_mm.z()),
-                   "preprocessing bridges holes and marks the bridges, or keeps them as a mask; scan again if one lies "
-                   "where the "
-                   "expression moves");
+        report.add(Severity::note, "holes",
+                   fmt::format("{}, the largest {:.1f} mm across at {} mm", counted(holes.count, "hole"),
+                               holes.largest_mm, text_of(holes.largest_at_mm)),
+                   "preprocessing bridges holes and marks the bridges, or keeps them as a mask");
 
     const auto spikes = find_spikes(scan, options.spike_mm);
     if (!spikes.empty())
@@ -307,6 +320,10 @@ void check_surface(const LoadedScan& loaded, const DoctorOptions& options, Repor
 
 void check_texture(const LoadedScan& loaded, Report& report) {
     const auto& entry = loaded.entry;
+    if (!loaded.checks.landmarks2d_error.empty())
+        report.add(Severity::warning, "unreadable", loaded.checks.landmarks2d_error,
+                   "mark the points in the image again, or copy the file again; without it the texture is not checked",
+                   entry.landmarks2d_file.string());
     if (entry.texture_file.empty()) {
         if (!loaded.scan.texture_file.empty())
             report.add(Severity::note, "texture",
@@ -339,6 +356,34 @@ void check_texture(const LoadedScan& loaded, Report& report) {
 }
 
 }  // namespace
+
+std::optional<HeadAxes> head_axes(const Landmarks& marks) {
+    const auto mean = [&](std::initializer_list<std::string_view> names) -> std::optional<Point> {
+        Point sum = Point::Zero();
+        for (const auto name : names) {
+            const auto* mark = marks.find(name);
+            if (!mark) return std::nullopt;
+            sum += mark->position_mm;
+        }
+        return sum / static_cast<double>(names.size());
+    };
+    const auto eyes = mean({"eye_outer_left", "eye_outer_right", "eye_inner_left", "eye_inner_right"});
+    const auto mouth = mean({"mouth_corner_left", "mouth_corner_right"});
+    const auto nose = mean({"nose_tip"});
+    const auto left = mean({"eye_outer_left", "eye_inner_left", "mouth_corner_left"});
+    const auto right = mean({"eye_outer_right", "eye_inner_right", "mouth_corner_right"});
+    if (!eyes || !mouth || !nose || !left || !right) return std::nullopt;
+    HeadAxes axes;
+    axes.lateral = (*left - *right).normalized();
+    axes.up = *eyes - *mouth;
+    axes.up = (axes.up - axes.lateral * axes.lateral.dot(axes.up)).normalized();
+    // The nose tip stands before the plane of eyes and mouth corners whatever the names are.
+    Vector out = *nose - (*eyes + *mouth) / 2;
+    out -= axes.lateral * axes.lateral.dot(out);
+    axes.out = (out - axes.up * axes.up.dot(out)).normalized();
+    if (!axes.lateral.allFinite() || !axes.up.allFinite() || !axes.out.allFinite()) return std::nullopt;
+    return axes;
+}
 
 std::string to_string(Severity severity) {
     return severity == Severity::note ? "note" : severity == Severity::warning ? "warning" : "error";
@@ -385,24 +430,37 @@ std::optional<Landmarks> landmarks_of(const ScanEntry& entry) {
 std::vector<Finding> check_scan(const ScanEntry& entry, const ScanEntry* neutral, const DoctorOptions& options) {
     const auto neutral_landmarks = neutral && entry.id.side() != Side::both ? landmarks_of(*neutral) : std::nullopt;
     const auto* landmarks = neutral_landmarks ? &*neutral_landmarks : nullptr;
+    std::string reason;
     try {
         return check_scan(load(entry), landmarks, options);
     } catch (const InputError& e) {
-        Report report(entry.scan_file.string());
-        report.add(Severity::error, "unreadable", e.what(), "mend or replace the file");
-        auto findings = report.finish();
-        // Bad landmarks should not hide what is wrong with the scan itself.
-        if (entry.landmarks_file.empty()) return findings;
-        ScanEntry alone = entry;
-        alone.landmarks_file.clear();
-        alone.landmarks2d_file.clear();
-        try {
-            for (auto& finding : check_scan(load(alone), nullptr, options))
-                if (finding.kind != "landmarks-missing") findings.push_back(std::move(finding));
-        } catch (const InputError&) {  // the scan itself is what cannot be read: said above
-        }
-        return findings;
+        reason = e.what();
     }
+    // Bad landmarks should not hide what is wrong with the scan itself, nor the other way round.
+    Report report(entry.scan_file.string());
+    const auto landmarks_unreadable = [&](const std::string& what) {
+        report.add(Severity::error, "unreadable", what, "mend, replace or restore the landmark file",
+                   entry.landmarks_file.string());
+    };
+    ScanEntry alone = entry;
+    alone.landmarks_file.clear();
+    alone.landmarks2d_file.clear();
+    std::vector<Finding> of_scan;
+    try {
+        of_scan = check_scan(load(alone), nullptr, options);
+        landmarks_unreadable(reason);
+    } catch (const InputError& e) {
+        report.add(Severity::error, "unreadable", e.what(), "mend or replace the file");
+        try {
+            if (!entry.landmarks_file.empty()) (void)geometry::read_landmarks(entry.landmarks_file, {}, entry.unit);
+        } catch (const InputError& of_landmarks) {
+            landmarks_unreadable(of_landmarks.what());
+        }
+    }
+    auto findings = report.finish();
+    for (auto& finding : of_scan)
+        if (finding.kind != "landmarks-missing") findings.push_back(std::move(finding));
+    return findings;
 }
 
 std::string to_json(const std::vector<Finding>& findings) {

@@ -31,7 +31,7 @@ struct Finding {
 struct DoctorOptions {
     double min_size_ratio = 0.6;  ///< eye distance, mouth width ... against the adult mean: children and extremes pass
     double max_size_ratio = 1.6;
-    double max_hole_mm = 15.0;  ///< larger ones get a warning; an open eye or mouth is smaller
+    double max_hole_mm = 15.0;  ///< of what a hole takes of the skin; more gets a warning (see find_holes)
     double spike_mm = 4.0;  ///< off the neighbourhood by more than this; a nose wall on a 0.8 mm lattice stays below
     double max_spike_share = 0.002;  ///< of the valid points; more get a warning
     double landmark_off_scan_mm =
@@ -52,14 +52,31 @@ struct DoctorOptions {
 /// The landmarks of a scan under our names; empty if it cannot be loaded (checking that scan says why).
 [[nodiscard]] std::optional<geometry::Landmarks> landmarks_of(const ScanEntry& entry);
 
+/// Axes of the head from its landmarks: lateral (to the subject's left), up, out of the face. Empty if eye corners,
+/// mouth corners or nose tip are missing.
+struct HeadAxes {
+    geometry::Vector lateral, up, out;
+};
+[[nodiscard]] std::optional<HeadAxes> head_axes(const geometry::Landmarks& landmarks);
+
 /// Holes of a scan: what is not measured but surrounded by what is.
 struct HoleReport {
     bool judged = false;  ///< false for a bare cloud
     int count = 0;
     double largest_mm = 0;                                    ///< diagonal of the box around its rim
     geometry::Point largest_at_mm = geometry::Point::Zero();  ///< middle of that box
+    std::vector<std::vector<geometry::Point>> rims_mm;        ///< points around each hole, in no order
 };
 [[nodiscard]] HoleReport find_holes(const geometry::RangeScan& scan);
+
+/// The hole that takes most of the skin, as the diagonal of the box around that part of its rim which lies away from
+/// where every scanner loses points: eyes, brows, nostrils, lips and under the chin.
+struct SkinHole {
+    double size_mm = 0;  ///< 0: none
+    geometry::Point at_mm = geometry::Point::Zero();
+};
+/// Without eyes, mouth, nose and chin among the landmarks all counts as skin.
+[[nodiscard]] SkinHole worst_skin_hole(const HoleReport& holes, const geometry::Landmarks& landmarks);
 
 /// Points that lie off their neighbourhood by more than `spike_mm`, by index.
 [[nodiscard]] std::vector<std::size_t> find_spikes(const geometry::RangeScan& scan, double spike_mm);

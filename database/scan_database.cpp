@@ -1,6 +1,7 @@
 #include "database/scan_database.h"
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <set>
 #include <system_error>
@@ -187,8 +188,16 @@ void decide_code_sides(ScanDatabase& database) {
 }
 
 geometry::RangeScan read_scan(const ScanEntry& entry) {
-    return same(entry.scan_file.extension().string(), ".bnt") ? read_bnt_scan(entry.scan_file, entry.unit)
-                                                              : geometry::read_range_scan(entry.scan_file, entry.unit);
+    try {
+        return same(entry.scan_file.extension().string(), ".bnt")
+                   ? read_bnt_scan(entry.scan_file, entry.unit)
+                   : geometry::read_range_scan(entry.scan_file, entry.unit);
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::exception& e) {  // memory that the system refused, say
+        throw InputError(
+            fmt::format("{}: cannot be read ({}); mend or replace the file", entry.scan_file.string(), e.what()));
+    }
 }
 
 geometry::Landmarks read_named_landmarks(const ScanEntry& entry, const geometry::RangeScan& scan, SideReport& sides) {
@@ -226,16 +235,27 @@ void check_frame(const FrameCorrelations& correlations, std::vector<std::string>
 void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& nearest) {
     ScanEntry& entry = loaded.entry;
     std::error_code ignored;
+    if (const auto& named = loaded.scan.material_file; !named.empty())
+        loaded.files_looked_for.push_back(entry.scan_file.parent_path() / named);
     if (const auto& named = loaded.scan.texture_file; !named.empty()) {
         const auto beside = entry.scan_file.parent_path() / named;
+        loaded.files_looked_for.push_back(beside);
         if (fs::is_regular_file(beside, ignored))
             entry.texture_file = beside;
         else if (entry.texture_file.empty())
             loaded.remarks.push_back(fmt::format("its texture image '{}' is not beside it", named));
     }
-    if (entry.texture_file.empty() || entry.landmarks2d_file.empty()) return;
+    if (entry.landmarks2d_file.empty()) return;
+    std::vector<ImageLandmark> marks;
     try {
-        const auto marks = read_lm2(entry.landmarks2d_file);
+        marks = read_lm2(entry.landmarks2d_file);
+    } catch (const InputError& e) {
+        loaded.checks.landmarks2d_error = e.what();
+        loaded.remarks.emplace_back(e.what());
+        return;
+    }
+    if (entry.texture_file.empty()) return;
+    try {
         const auto size = geometry::image_size(entry.texture_file);
         loaded.checks.texture = texture_orientation(loaded.scan, loaded.landmarks, nearest, marks, size);
     } catch (const InputError& e) {
@@ -296,6 +316,7 @@ ScanDatabase open_database(const std::filesystem::path& root) {
         auto manifest = parse_manifest(geometry::read_text(file, max_list_bytes), file);
         database.layout = DatabaseLayout::manifest;
         database.scans = std::move(manifest.scans);
+        for (auto& entry : database.scans) entry.layout = DatabaseLayout::manifest;
         std::move(manifest.remarks.begin(), manifest.remarks.end(), std::back_inserter(database.remarks));
         if (database.scans.empty())
             throw InputError(fmt::format("{}: lists no scan; add one line per scan", file.string()));
@@ -362,7 +383,7 @@ std::vector<const ScanEntry*> select(const ScanDatabase& database, const Selecti
 }
 
 LoadedScan load(const ScanEntry& entry) {
-    LoadedScan loaded{entry, read_scan(entry), {}, {}, {}};
+    LoadedScan loaded{entry, read_scan(entry), {}, {}, {}, {}};
     if (std::none_of(loaded.scan.points_mm.begin(), loaded.scan.points_mm.end(),
                      [](const auto& p) { return p.allFinite(); }))
         throw InputError(fmt::format("{}: holds no measured point; scan again or remove it", entry.scan_file.string()));

@@ -18,6 +18,8 @@
 
 namespace mimik::database {
 
+enum class DatabaseLayout { bosphorus, manifest };
+
 /// Where one scan's files are. Paths are absolute; empty where there is none.
 struct ScanEntry {
     ScanId id;                               ///< sides are the subject's own, also where the file's name says otherwise
@@ -26,6 +28,7 @@ struct ScanEntry {
     std::filesystem::path landmarks_file;    ///< .lm3, .pp, .fcsv, .mrk.json, .csv
     std::filesystem::path landmarks2d_file;  ///< .lm2
     std::filesystem::path texture_file;
+    DatabaseLayout layout = DatabaseLayout::bosphorus;
     geometry::LengthUnit unit = geometry::LengthUnit::millimetre;
     std::string sex;                     ///< "m", "f" or empty
     std::map<int, char> intensities;     ///< AU -> 'A'..'E' (0 where not scored), the stronger side, from facscodes.lst
@@ -38,10 +41,9 @@ struct CodeSides {
     int own_side = 0;    ///< scans that move the corner their name says
     int other_side = 0;  ///< scans that move the other one
     int undecided = 0;
-    bool swapped = false;  ///< the names are the viewer's: at least two thirds of the votes; ids were mirrored
+    bool swapped = false;  ///< the names are the viewer's: at least two thirds of the votes, and three of them or two
+                           ///< subjects; ids were mirrored
 };
-
-enum class DatabaseLayout { bosphorus, manifest };
 
 /// A folder of bsNNN/ folders in Bosphorus layout, or a folder with manifest.csv (database/manifest.h). Scans are
 /// opened one at a time with load(); opening the database reads names, the lists beside the scans and the landmarks of
@@ -80,6 +82,7 @@ struct SelfChecks {
     std::optional<TextureOrientation> texture;
     double landmark_off_scan_mm = 0;  ///< largest distance of a landmark to the nearest valid point
     std::string landmark_off_scan;    ///< its name; empty if there are no landmarks
+    std::string landmarks2d_error;    ///< why the .lm2 cannot be read
 };
 
 /// One scan with its landmarks under our names (subject's own side), mm, scanner frame.
@@ -89,6 +92,8 @@ struct LoadedScan {
     geometry::Landmarks landmarks;
     SelfChecks checks;
     std::vector<std::string> remarks;  ///< what the self-checks found; a defect that forbids use is thrown instead
+    /// Files that the scan file names and that say how the scan looks: image, OBJ's material file; there or not.
+    std::vector<std::filesystem::path> files_looked_for;
 };
 /// May be called from many threads. A texture that lies otherwise than expected is turned, with a remark. @throws
 /// InputError.

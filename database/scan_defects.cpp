@@ -3,10 +3,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <string>
 #include <unordered_map>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -18,12 +23,73 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 
-void keep_largest(HoleReport& report, const Box& rim) {
-    const double size_mm = rim.diagonal().norm();
-    if (size_mm <= report.largest_mm) return;
-    report.largest_mm = size_mm;
-    report.largest_at_mm = rim.center();
+Box box_of(std::span<const geometry::Point> points) {
+    Box box;
+    for (const auto& p : points) box.extend(p);
+    return box;
 }
+
+void add_hole(HoleReport& report, std::vector<geometry::Point> rim) {
+    const Box box = box_of(rim);
+    ++report.count;
+    report.rims_mm.push_back(std::move(rim));
+    if (box.diagonal().norm() <= report.largest_mm) return;
+    report.largest_mm = box.diagonal().norm();
+    report.largest_at_mm = box.center();
+}
+
+/// Where scanners lose points on every face, seen along `out`. Radii in outer-eye distances, so that the holes of the
+/// synthetic scanner (lids, brows, nostrils, lips and their shades) lie inside and a cheek or a forehead does not.
+class OrdinaryPlaces {
+public:
+    explicit OrdinaryPlaces(const geometry::Landmarks& marks) : axes_(head_axes(marks)) {
+        const auto* chin = marks.find("chin");
+        if (!axes_ || !chin) {
+            axes_.reset();
+            return;
+        }
+        chin_mm_ = axes_->up.dot(chin->position_mm);
+        const double eyes_mm = (marks.position_mm("eye_outer_left") - marks.position_mm("eye_outer_right")).norm();
+        const auto add = [&](const std::string& a, const std::string& b, double beyond, double beside) {
+            const auto *from = marks.find(a), *to = marks.find(b);
+            if (from && to)
+                stripes_.push_back(
+                    {seen(from->position_mm), seen(to->position_mm), beyond * eyes_mm, beside * eyes_mm});
+        };
+        for (const std::string side : {"_left", "_right"}) {
+            add("eye_outer" + side, "eye_inner" + side, 0.08, 0.17);
+            add("brow_outer" + side, "brow_middle" + side, 0.12, 0.12);
+            add("brow_middle" + side, "brow_inner" + side, 0.12, 0.12);
+            add("nose_wing" + side, "nose_tip", 0.15, 0.15);
+            for (const char* lip : {"upper_lip_inner", "lower_lip_inner"}) add("mouth_corner" + side, lip, 0.12, 0.12);
+        }
+    }
+
+    [[nodiscard]] bool hold(const geometry::Point& point) const {
+        if (!axes_) return false;
+        if (axes_->up.dot(point) < chin_mm_) return true;
+        const auto p = seen(point);
+        return std::any_of(stripes_.begin(), stripes_.end(), [&](const Stripe& stripe) {
+            const Eigen::Vector2d along = (stripe.to - stripe.from).normalized(), from = p - stripe.from;
+            const double t = along.dot(from), length = (stripe.to - stripe.from).norm();
+            return t > -stripe.beyond_mm && t < length + stripe.beyond_mm &&
+                   std::abs(along.x() * from.y() - along.y() * from.x()) < stripe.beside_mm;
+        });
+    }
+
+private:
+    struct Stripe {
+        Eigen::Vector2d from, to;
+        double beyond_mm, beside_mm;
+    };
+    [[nodiscard]] Eigen::Vector2d seen(const geometry::Point& p) const {
+        return {axes_->lateral.dot(p), axes_->up.dot(p)};
+    }
+
+    std::optional<HeadAxes> axes_;
+    double chin_mm_ = 0;
+    std::vector<Stripe> stripes_;
+};
 
 /// Parts of the unmeasured cells that do not reach the edge of the lattice.
 HoleReport holes_of_lattice(const geometry::RangeScan& scan) {
@@ -39,7 +105,7 @@ HoleReport holes_of_lattice(const geometry::RangeScan& scan) {
         for (int start_col = 0; start_col < cols; ++start_col) {
             if (scan.valid(at(start_row, start_col)) || seen[at(start_row, start_col)]) continue;
             bool open = false;
-            Box rim;
+            std::vector<geometry::Point> rim;
             queue.assign(1, {start_row, start_col});
             seen[at(start_row, start_col)] = 1;
             while (!queue.empty()) {
@@ -50,16 +116,14 @@ HoleReport holes_of_lattice(const geometry::RangeScan& scan) {
                     if (r < 0 || c < 0 || r >= rows || c >= cols) {
                         open = true;
                     } else if (scan.valid(at(r, c))) {
-                        rim.extend(scan.points_mm[at(r, c)]);
+                        rim.push_back(scan.points_mm[at(r, c)]);
                     } else if (!seen[at(r, c)]) {
                         seen[at(r, c)] = 1;
                         queue.push_back({r, c});
                     }
                 }
             }
-            if (open) continue;
-            ++report.count;
-            keep_largest(report, rim);
+            if (!open) add_hole(report, std::move(rim));
         }
     return report;
 }
@@ -87,17 +151,15 @@ HoleReport holes_of_mesh(const geometry::RangeScan& scan) {
             const auto a = root(static_cast<std::uint32_t>(edge >> 32)), b = root(static_cast<std::uint32_t>(edge));
             parent[std::max(a, b)] = std::min(a, b);
         }
-    std::map<std::uint32_t, Box> rims;  // ordered: the report must not depend on hashing
-    for (const auto& [vertex, unused] : parent) rims[root(vertex)].extend(scan.points_mm[vertex]);
+    // Ordered: the report must not depend on hashing.
+    std::map<std::uint32_t, std::vector<geometry::Point>> rims;
+    for (const auto& [vertex, unused] : parent) rims[root(vertex)].push_back(scan.points_mm[vertex]);
     if (rims.size() < 2) return report;
     const auto outline = std::max_element(rims.begin(), rims.end(), [](const auto& a, const auto& b) {
-        return a.second.diagonal().norm() < b.second.diagonal().norm();
+        return box_of(a.second).diagonal().norm() < box_of(b.second).diagonal().norm();
     });
-    for (auto it = rims.begin(); it != rims.end(); ++it) {
-        if (it == outline) continue;
-        ++report.count;
-        keep_largest(report, it->second);
-    }
+    for (auto it = rims.begin(); it != rims.end(); ++it)
+        if (it != outline) add_hole(report, std::move(it->second));
     return report;
 }
 
@@ -153,6 +215,20 @@ HoleReport find_holes(const geometry::RangeScan& scan) {
     if (scan.organised()) return holes_of_lattice(scan);
     if (scan.faces.size() > 0) return holes_of_mesh(scan);
     return {};
+}
+
+SkinHole worst_skin_hole(const HoleReport& holes, const geometry::Landmarks& landmarks) {
+    const OrdinaryPlaces ordinary(landmarks);
+    SkinHole worst;
+    for (const auto& rim : holes.rims_mm) {
+        std::vector<geometry::Point> skin;
+        std::copy_if(rim.begin(), rim.end(), std::back_inserter(skin),
+                     [&](const auto& p) { return !ordinary.hold(p); });
+        if (skin.empty()) continue;
+        const Box box = box_of(skin);
+        if (box.diagonal().norm() > worst.size_mm) worst = {box.diagonal().norm(), box.center()};
+    }
+    return worst;
 }
 
 std::vector<std::size_t> find_spikes(const geometry::RangeScan& scan, double spike_mm) {

@@ -1,6 +1,8 @@
 #include "geometry/mesh_io.h"
 
 #include <cmath>
+#include <new>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -94,6 +96,22 @@ void check_parts_fit(const Mesh& mesh, const std::string& name) {
         if (!mesh.vertices_mm[i].allFinite()) refuse(fmt::format("vertex {} is not a finite position", i));
 }
 
+MeshFile decode(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name, MeshParts parts) {
+    switch (format) {
+        case MeshFormat::ply:
+            return formats::decode_ply(bytes, name);
+        case MeshFormat::obj:
+            return formats::decode_obj(bytes, name);
+        case MeshFormat::stl:
+            return formats::decode_stl(bytes, name);
+        case MeshFormat::pcd:
+            return formats::decode_pcd(bytes, name, parts);
+        case MeshFormat::vtp:
+            break;
+    }
+    return formats::decode_vtp(bytes, name);
+}
+
 }  // namespace
 
 LengthUnit parse_length_unit(const std::string& text) {
@@ -136,22 +154,18 @@ std::string checked_texture_name(const std::string& texture, const std::string& 
     return name;
 }
 
-MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name, LengthUnit unit) {
+MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name, LengthUnit unit,
+                     MeshParts parts) {
     auto file = [&] {
-        switch (format) {
-            case MeshFormat::ply:
-                return formats::decode_ply(bytes, name);
-            case MeshFormat::obj:
-                return formats::decode_obj(bytes, name);
-            case MeshFormat::stl:
-                return formats::decode_stl(bytes, name);
-            case MeshFormat::pcd:
-                return formats::decode_pcd(bytes, name);
-            case MeshFormat::vtp:
-                break;
+        try {
+            return decode(format, bytes, name, parts);
+        } catch (const std::bad_alloc&) {
+            throw InputError(fmt::format("{}: there is not enough memory for what it holds", name));
+        } catch (const std::length_error&) {
+            throw InputError(fmt::format("{}: promises more than any memory holds; its header is wrong", name));
         }
-        return formats::decode_vtp(bytes, name);
     }();
+    if (parts == MeshParts::without_attributes) file.mesh.attributes.clear();
     scale_lengths(file, unit);
     check_vertices(file, format, name);
     return file;
@@ -168,11 +182,12 @@ Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit) {
     return mesh;
 }
 
-MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit) {
+MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit, MeshParts parts) {
     const auto format = mesh_format(file);
-    auto content = decode_mesh(format, read_bytes(file), file.string(), unit);
+    auto content = decode_mesh(format, read_bytes(file), file.string(), unit, parts);
     if (format == MeshFormat::obj && !content.texture_file.empty()) {
         const std::filesystem::path named = checked_texture_path(content.texture_file, file.string());
+        content.material_file = named.generic_string();
         const auto material = file.parent_path() / named;
         // A missing material file takes the texture away, not the mesh.
         content.texture_file =

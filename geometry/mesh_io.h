@@ -26,21 +26,26 @@ enum class MeshFormat { ply, obj, stl, pcd, vtp };
 /// @throws InputError naming file, line or byte, field, value and mend.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre);
 
+/// Attributes can take much more memory than the surface: who has no use for them need not have them decoded.
+enum class MeshParts { all, without_attributes };
+
 /// What a file holds beside the surface.
 struct MeshFile {
     Mesh mesh;
-    std::string texture_file;  ///< image in the mesh's folder or below it ("tex/skin.png"); empty: none
+    std::string texture_file;   ///< image in the mesh's folder or below it ("tex/skin.png"); empty: none
+    std::string material_file;  ///< of an OBJ: its mtllib, likewise
     int rows = 0;  ///< of a PCD with HEIGHT > 1, in the file's order; its NaN points are then still in `mesh`
     int cols = 0;
 };
 /// read_mesh with the name of the texture image (PLY: comment TextureFile; OBJ: map_Kd of its MTL) and a PCD's lattice.
 /// @throws InputError also where the texture's name leads out of the mesh's folder.
-[[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre);
+[[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre,
+                                      MeshParts parts = MeshParts::all);
 
 /// The same from memory; `name` stands for the file in messages. The texture name is as written (for OBJ: the name of
 /// the material file).
 [[nodiscard]] MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name,
-                                   LengthUnit unit = LengthUnit::millimetre);
+                                   LengthUnit unit = LengthUnit::millimetre, MeshParts parts = MeshParts::all);
 
 struct MeshWriteOptions {
     std::string texture_file;  ///< image beside the mesh, named in OBJ's MTL and PLY's comment; empty: none

@@ -18,6 +18,7 @@ struct RangeScan {
     std::vector<TextureCoordinate> texture_coordinates;  ///< empty, or one per point
     Faces faces;                                         ///< only where a mesh file gave them
     std::string texture_file;                            ///< in the scan's folder or below it; empty: no texture
+    std::string material_file;                           ///< of an OBJ: where the texture's name stands, likewise
 
     [[nodiscard]] bool organised() const { return rows > 0; }
     [[nodiscard]] bool valid(std::size_t index) const { return std::isfinite(points_mm[index].x()); }

@@ -57,6 +57,7 @@ RangeScan to_range_scan(MeshFile file, const std::string& name) {
     scan.texture_coordinates = std::move(file.mesh.texture_coordinates);
     scan.faces = std::move(file.mesh.faces);
     scan.texture_file = std::move(file.texture_file);
+    scan.material_file = std::move(file.material_file);
     if (std::none_of(scan.points_mm.begin(), scan.points_mm.end(), [](const Point& p) { return p.allFinite(); }))
         throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", name));
     if (!scan.organised()) {
@@ -79,7 +80,7 @@ RangeScan to_range_scan(MeshFile file, const std::string& name) {
 }
 
 RangeScan read_range_scan(const std::filesystem::path& file, LengthUnit unit) {
-    return to_range_scan(read_mesh_file(file, unit), file.string());
+    return to_range_scan(read_mesh_file(file, unit, MeshParts::without_attributes), file.string());
 }
 
 }  // namespace mimik::geometry

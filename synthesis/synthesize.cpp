@@ -294,6 +294,21 @@ SynthesizeEstimate estimate_database(const FaceModel& model, const SynthesizeOpt
     return estimate;
 }
 
+void check_database_place(const fs::path& out, std::uintmax_t bytes) {
+    auto folder = resolved(out);
+    std::error_code error;
+    while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+    if (!fs::is_directory(folder, error))
+        throw InputError(
+            fmt::format("{}: {} is no folder; give a new folder in one that is there", out.string(), folder.string()));
+    const auto disk = fs::space(folder, error);
+    if (!error && disk.available < bytes)
+        throw InputError(
+            fmt::format("{}: the database takes about {:.0f} MB, but its disk has {:.0f} MB free; make "
+                        "fewer subjects or expressions, or write elsewhere",
+                        out.string(), static_cast<double>(bytes) / 1e6, static_cast<double>(disk.available) / 1e6));
+}
+
 SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model, const SynthesizeOptions& options) {
     options.check();
     const fs::path place = resolved(out);

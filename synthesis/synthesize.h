@@ -44,6 +44,10 @@ struct SynthesizeEstimate {
 };
 [[nodiscard]] SynthesizeEstimate estimate_database(const FaceModel& model, const SynthesizeOptions& options);
 
+/// Refuses before the work what would be refused after it. @throws InputError if `out` exists and is not an empty
+/// folder, or its disk has fewer than `bytes` free.
+void check_database_place(const std::filesystem::path& out, std::uintmax_t bytes = 0);
+
 /// Writes a database in Bosphorus layout and its truth (docs/formats.md). It grows in a folder beside `out` and takes
 /// its name when complete. Same options, same bytes, whatever the number of threads.
 /// @throws InputError if `out` exists and is not an empty folder, or an option is out of range.

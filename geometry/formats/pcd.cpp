@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::size_t most_fields = 1000;
 constexpr std::size_t largest_count = 10000;
+// Compressed fields can hold 700 times their bytes as numbers; a scan of a million points with 12 fields has 96 MB.
+constexpr std::uint64_t most_decoded_bytes = std::uint64_t{256} << 20;
 // Three bytes of LZF stand for at most 264.
 constexpr std::uint64_t best_lzf_ratio = 88;
 
@@ -143,7 +145,7 @@ Field* find_scalar(Header& header, std::string_view name) {
     return nullptr;
 }
 
-void direct_fields(Header& header, std::size_t count, Mesh& mesh, std::vector<double>& packed,
+void direct_fields(Header& header, std::size_t count, Mesh& mesh, std::vector<double>& packed, MeshParts parts,
                    const std::string& name) {
     mesh.vertices_mm.resize(count);
     constexpr std::array<std::string_view, 3> axes = {"x", "y", "z"};
@@ -170,7 +172,8 @@ void direct_fields(Header& header, std::size_t count, Mesh& mesh, std::vector<do
     }
     for (auto& field : header.fields) {
         const bool normal = field.name == "normal_x" || field.name == "normal_y" || field.name == "normal_z";
-        if (field.column || field.name == "_" || normal || count == 0) continue;
+        if (field.column || field.name == "_" || normal || count == 0 || parts == MeshParts::without_attributes)
+            continue;
         auto& attribute = mesh.attributes.emplace_back();
         attribute.name = field.name;
         attribute.components = static_cast<int>(field.count);
@@ -235,7 +238,7 @@ std::vector<std::uint8_t> decompress(std::span<const std::uint8_t> data, std::ui
 
 }  // namespace
 
-MeshFile decode_pcd(std::span<const std::uint8_t> bytes, const std::string& name) {
+MeshFile decode_pcd(std::span<const std::uint8_t> bytes, const std::string& name, MeshParts parts) {
     LineReader lines(as_text(bytes), name);
     auto header = parse_header(lines);
     const std::uint64_t count = std::uint64_t{header.width} * header.height;
@@ -257,11 +260,17 @@ MeshFile decode_pcd(std::span<const std::uint8_t> bytes, const std::string& name
             fmt::format("{}: WIDTH x HEIGHT is {} x {}, but only {} bytes of data are left; the file is truncated or "
                         "its header wrong",
                         name, header.width, header.height, data.size()));
+    const std::uint64_t decoded = count * std::max(8 * values, point_bytes);
+    if (decoded > most_decoded_bytes)
+        throw InputError(
+            fmt::format("{}: {} points of {} values take {} bytes of memory, more than {}; thin the scan out or leave "
+                        "fields out",
+                        name, count, values, decoded, most_decoded_bytes));
     MeshFile file;
     std::vector<double> packed_colours;
     std::vector<std::uint8_t> unpacked;
     if (header.storage == Storage::compressed) unpacked = decompress(data, count * point_bytes, name);
-    direct_fields(header, count, file.mesh, packed_colours, name);
+    direct_fields(header, count, file.mesh, packed_colours, parts, name);
     if (header.storage == Storage::ascii) {
         read_ascii(header, count, lines);
     } else {

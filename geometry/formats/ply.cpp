@@ -160,10 +160,14 @@ std::size_t least_row_bytes(const Element& element, Encoding encoding) {
 }
 
 void check_count(const Element& element, Encoding encoding, std::size_t bytes_left, const std::string& name) {
+    // Rows without a byte could be any number.
+    if (element.count > 0 && element.properties.empty())
+        throw InputError(fmt::format("{}: element {}: the header promises {} rows but no property; its header is wrong",
+                                     name, in_quotes(element.name), element.count));
     const auto row = least_row_bytes(element, encoding);
     // The last line of a text file may lack its end.
     const auto available = bytes_left + (encoding == Encoding::ascii ? 1 : 0);
-    if (row > 0 && element.count > available / row)
+    if (element.count > 0 && element.count > available / row)
         throw InputError(
             fmt::format("{}: element {}: the header promises {} rows of at least {} bytes but only {} bytes are "
                         "left; the file is truncated or its header wrong",

@@ -161,6 +161,10 @@ fi
 
 "$mimik" scans db1 --json --no-catalogue >scans.json
 grep -q '"schema"' scans.json
+"$mimik" scans db1 --check --no-catalogue >check.txt 2>remarks.txt
+! grep -q warning check.txt && grep -q '0 of 15 scans have errors' check.txt || { cat check.txt; fail "warnings"; }
+[ ! -s remarks.txt ] || { cat remarks.txt; fail "remarks"; }
+claim "the doctor has neither a warning nor a remark on a synthetic database"
 expect_code 2 "AU99 is not in the catalogue; there are: 1, 2" "$mimik" animate work1 --target bs001 --au 99 -o x.ply
 expect_code 2 "no scan of expression '17'" "$mimik" animate work1 --source bs000 --target bs001 --au 17 -o x.ply
 expect_code 2 "asked for twice" "$mimik" evaluate work1 --expression 12,AU12
@@ -170,6 +174,12 @@ expect_code 2 "bs000, bs001, bs002" "$mimik" animate work1 --source bs000 --targ
 expect_code 2 "is not a folder" "$mimik" preprocess nowhere -o x
 expect_code 2 "no finished workspace" "$mimik" evaluate db1
 [ ! -e x.ply ] && [ ! -e x ]
+expect_code 2 "--spacing: spacing_mm is 0" "$mimik" synthesize x --spacing 0
+expect_code 2 "--eye-holes: eye_hole_share is 2" "$mimik" synthesize x --eye-holes 2
+expect_code 2 "--trim: trim is 2" "$mimik" preprocess db1 -o x --trim 2
+expect_code 2 "--landmark-off-mm: landmark_off_scan_mm is 0" "$mimik" scans db1 --landmark-off-mm 0
+expect_code 2 $'--seed\n-1' "$mimik" synthesize x --seed -1
+[ ! -e x ]
 claim "wrong input is named, ends with 2 and leaves nothing behind"
 
 expect_code 2 "'99'" "$mimik" evaluate work1 --expression 99 --dry-run
@@ -179,6 +189,8 @@ expect_code 2 "nothing is written" "$mimik" preprocess db1 -o db1 --dry-run
 "$mimik" evaluate work1 --expression 12 --dry-run --json | grep -q '"megabytes"'
 "$mimik" preprocess db1 -o x --dry-run --json --threads "$(nproc)" >estimate.json
 "$mimik" preprocess db1 -o x --dry-run --json --threads 1024 | diff estimate.json -
+expect_code 2 "db1: exists already" "$mimik" synthesize db1 --dry-run
+expect_code 2 "MB free" "$mimik" synthesize x --subjects 1000 --expressions all --spacing 0.2 --texture-density 10 --dry-run
 claim "a dry run refuses what the run would, and believes in no more threads than there are cores"
 
 touch file
@@ -196,6 +208,7 @@ cp -r db1 broken
 mv cut.bnt broken/bs002/bs002_LFAU_12_0.bnt
 expect_code 1 "bs002_LFAU_12_0" "$mimik" preprocess broken -o broken_work --quiet
 [ -e broken_work/faces/bs002/bs002_UFAU_4_0.json ]
+expect_code 1 "bs002_LFAU_12_0" "$mimik" scans broken --no-catalogue
 claim "one cut scan is reported with 1, and the rest is done"
 
 echo BS001 >broken/Unallowed_Subjects.txt  # neither case is that of the scans
@@ -215,3 +228,14 @@ echo BS001 >broken/Unallowed_Subjects.txt
 "$mimik" preprocess broken -o broken_work --sheets --quiet >/dev/null 2>&1 || [ $? -eq 1 ]
 [ ! -e broken_work/sheets/bs001.png ] && { [ "$can_draw" = no ] || [ -e broken_work/sheets/bs000.png ]; }
 claim "a subject who must not be shown is not"
+
+mkdir stopped
+"$mimik" synthesize stopped/db --subjects 200 --expressions all 2>stopped.txt &
+job=$!
+for _ in $(seq 600); do [ -n "$(ls stopped)" ] && break; sleep 0.1; done
+[ -n "$(ls stopped)" ] || fail "nothing was begun"
+kill -TERM $job
+code=0
+wait $job || code=$?
+[ "$code" -eq 143 ] && [ -z "$(ls stopped)" ] || { cat stopped.txt; fail "exit code $code, left: $(ls stopped)"; }
+claim "a run that is told to stop leaves nothing behind"

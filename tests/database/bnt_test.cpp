@@ -130,6 +130,10 @@ TEST(Bnt, sizes_that_disagree_are_refused_with_the_field_and_the_values) {
                 HasSubstr("value count is 60, but nrows 5 x ncols 4 x 5 is 100"));
     EXPECT_THAT(decode_error(with(bytes, 12, std::uint16_t{60000})),
                 HasSubstr("texture name is said to be 60000 bytes"));
+    // 7000 x 7000 cells, which a sparse file of 4 kB on disk could hold.
+    auto large = with(with(bytes, 0, std::uint16_t{7000}), 2, std::uint16_t{7000});
+    EXPECT_THAT(decode_error(with(large, 14 + 15, std::uint32_t{5 * 7000 * 7000})),
+                HasSubstr("more than the 5000000 cells that Mimik reads"));
     auto longer = bytes;
     longer.push_back(0);
     EXPECT_THAT(decode_error(longer), HasSubstr("behind the last value"));

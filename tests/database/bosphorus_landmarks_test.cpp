@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -173,6 +174,45 @@ TEST(AnyLabels, ours_anatomical_and_bosphorus_names_are_recognised) {
     EXPECT_EQ(named.position_mm("nose_tip").x(), 4);
     EXPECT_EQ(named.position_mm("chin").x(), 5);
     EXPECT_EQ(named.position_mm("sn").x(), 6);
+}
+
+TEST(AnyLabels, our_own_name_of_a_nose_saddle_keeps_its_side_and_the_bosphorus_label_of_it_means_the_viewers) {
+    EXPECT_NE(from_any_labels(marks({{"nose_saddle_left", 9}})).find("nose_saddle_left"), nullptr);
+    EXPECT_NE(from_any_labels(marks({{"nose_saddle_left", 9}, {"ex_l", 40}, {"ex_r", -40}})).find("nose_saddle_left"),
+              nullptr);
+    EXPECT_NE(from_any_labels(marks({{"Nose saddle left", -9}})).find("nose_saddle_right"), nullptr);
+    // A file of Bosphorus labels in another spelling.
+    const auto bosphorus = marks({{"nose_saddle_left", -9}, {"outer_left_eye_corner", -40}});
+    EXPECT_NE(from_any_labels(bosphorus).find("nose_saddle_right"), nullptr);
+}
+
+TEST(AnyLabels, a_swapped_pair_is_named_whatever_its_names_and_however_the_head_is_turned) {
+    const std::vector<std::vector<std::pair<std::string, double>>> files = {
+        {{"eye_outer_left", 40},
+         {"eye_outer_right", -40},
+         {"eye_inner_left", 15},
+         {"eye_inner_right", -15},
+         {"mouth_corner_left", -25},
+         {"mouth_corner_right", 25}},
+        {{"ex_l", 40}, {"ex_r", -40}, {"en_l", 15}, {"en_r", -15}, {"ch_l", -25}, {"ch_r", 25}},
+        {{"eye_outer_left", 40},
+         {"eye_outer_right", -40},
+         {"brow_outer_left", 45},
+         {"brow_outer_right", -45},
+         {"Cheilion left", -25},
+         {"Cheilion right", 25}}};
+    for (const auto& file : files)
+        for (const double angle : {0.0, 1.57, 3.14}) {
+            const Eigen::AngleAxisd turn(angle, geometry::Vector::UnitZ());
+            std::vector<geometry::Landmark> raw;
+            for (const auto& [name, x] : file) raw.push_back({name, turn * geometry::Point(x, 0, 0), ""});
+            SideReport report;
+            (void)from_any_labels(geometry::Landmarks(raw), &report);
+            EXPECT_THAT(report.swapped_pairs, ElementsAre("mouth_corner")) << file[0].first << " " << angle;
+        }
+    SideReport report;
+    (void)from_any_labels(marks({{"ex_l", -40}, {"ex_r", 40}, {"ch_l", -25}, {"ch_r", 25}}), &report);
+    EXPECT_THAT(report.swapped_pairs, testing::IsEmpty());  // all alike: the scan is mirrored
 }
 
 TEST(AnyLabels, the_68_numbers_are_recognised_counted_from_0_and_from_1) {

@@ -75,17 +75,41 @@ TEST(Doctor, default_options_are_valid_and_a_bad_one_is_named) {
 
 TEST(Doctor, a_face_of_the_wrong_size_is_recognised_as_another_unit) {
     for (const auto& [scale, unit, mend] :
-         {std::tuple{0.1, "centimetres", "unit=cm"}, {0.001, "metres", "unit=m"}, {1 / 25.4, "inches", "25.4"}}) {
-        const auto text = found(
-            check_scan(loaded(mapped(make_face(), [s = scale](auto p) { return geometry::Point(s * p); }))), "unit");
-        EXPECT_THAT(text, testing::AllOf(HasSubstr("error"), HasSubstr(unit), HasSubstr(mend)));
+         {std::tuple{0.1, "centimetres", "cm"}, {0.001, "metres", "m"}, {1 / 25.4, "inches", ""}}) {
+        auto scan = loaded(mapped(make_face(), [s = scale](auto p) { return geometry::Point(s * p); }));
+        EXPECT_THAT(found(check_scan(scan), "unit"),
+                    testing::AllOf(HasSubstr("error"), HasSubstr(unit),
+                                   HasSubstr("-> multiply all coordinates of scan and landmarks by")));
+        scan.entry.layout = DatabaseLayout::manifest;
+        if (*mend != 0) {
+            EXPECT_THAT(found(check_scan(scan), "unit"),
+                        HasSubstr(std::string("-> put ") + mend + " in the column unit of manifest.csv"));
+        }
         // Without landmarks the extent of the scan tells.
         auto cloud = loaded(mapped(make_face(), [s = scale](auto p) { return geometry::Point(s * p); }));
         cloud.landmarks = {};
         EXPECT_THAT(found(check_scan(cloud), "unit"), HasSubstr(unit));
     }
     EXPECT_THAT(found(check_scan(loaded(mapped(make_face(), [](auto p) { return geometry::Point(3 * p); }))), "unit"),
-                HasSubstr("convert scan and landmarks to millimetres"));
+                HasSubstr("convert all coordinates of scan and landmarks to millimetres"));
+}
+
+TEST(Doctor, where_only_scan_or_landmarks_have_another_unit_that_file_is_named) {
+    const auto small = mapped(make_face(), [](auto p) { return geometry::Point(0.1 * p); });
+    auto scan = loaded(make_face());
+    scan.entry.layout = DatabaseLayout::manifest;
+    scan.landmarks = small.landmarks;
+    auto findings = check_scan(scan);
+    ASSERT_EQ(findings[0].kind, "unit");
+    EXPECT_THAT(findings[0].what, HasSubstr("the landmarks look like centimetres"));
+    EXPECT_EQ(findings[0].mend, "multiply the coordinates of the landmarks by 10");
+    EXPECT_EQ(findings[0].where, "bs000_N_N_0.lm3");
+    scan = loaded(small);
+    scan.landmarks = make_face().landmarks;
+    findings = check_scan(scan);
+    ASSERT_EQ(findings[0].kind, "unit");
+    EXPECT_EQ(findings[0].mend, "multiply the coordinates of the scan by 10");
+    EXPECT_EQ(findings[0].where, "bs000_N_N_0.bnt");
 }
 
 TEST(Doctor, a_frame_with_z_away_y_down_or_both_is_named) {
@@ -129,6 +153,32 @@ TEST(Doctor, a_swapped_pair_of_labels_is_named) {
     const auto face = renamed(
         make_face(), {{"mouth_corner_left", "mouth_corner_right"}, {"mouth_corner_right", "mouth_corner_left"}});
     EXPECT_THAT(found(check_scan(loaded(face)), "sides"), HasSubstr("left and right 'mouth_corner' are swapped"));
+}
+
+TEST(Doctor, a_lattice_stored_top_down_is_seen_though_texture_and_landmarks_are_right) {
+    MadeFace face = make_face();
+    const auto rows = static_cast<std::size_t>(face.scan.rows), cols = static_cast<std::size_t>(face.scan.cols);
+    const auto turned = [&](const auto& values) {
+        auto result = values;
+        for (std::size_t i = 0; i < values.size(); ++i) result[i] = values[(rows - 1 - i / cols) * cols + i % cols];
+        return result;
+    };
+    face.scan.points_mm = turned(face.scan.points_mm);
+    face.scan.texture_coordinates = turned(face.scan.texture_coordinates);
+    EXPECT_THAT(found(check_scan(loaded(face)), "frame"),
+                testing::AllOf(HasSubstr("warning: y falls while the row goes up"), HasSubstr("row 0 is the lowest")));
+}
+
+TEST(Doctor, damaged_landmarks_of_the_image_are_a_warning_at_their_file) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm2", "# x\n");
+    for (const bool textured : {true, false}) {
+        if (!textured) std::filesystem::remove(folder.path() / "bs000/bs000_N_N_0.png");
+        const auto findings = check_scan(open_database(folder.path()).scans[0]);
+        EXPECT_THAT(found(findings, "unreadable"), HasSubstr("warning: ")) << textured;
+        EXPECT_THAT(findings[0].where, testing::EndsWith("bs000_N_N_0.lm2")) << textured;
+    }
 }
 
 TEST(Doctor, two_landmarks_that_changed_places_are_named) {
@@ -198,6 +248,24 @@ TEST(Doctor, holes_are_counted_and_the_largest_measured) {
     EXPECT_THAT(found(check_scan(loaded(face), nullptr, strict), "holes"), HasSubstr("warning: 2 holes"));
 }
 
+TEST(Doctor, a_hole_in_the_cheek_is_a_warning_and_holes_where_scanners_lose_points_are_a_note) {
+    const auto with_hole = [](double left, double right, double low, double high) {  // mm, of the made face
+        MadeFace face = make_face();
+        for (auto& p : face.scan.points_mm)
+            if (p.x() > left && p.x() < right && p.y() > low && p.y() < high)
+                p.setConstant(std::numeric_limits<double>::quiet_NaN());
+        return found(check_scan(loaded(face)), "holes");
+    };
+    EXPECT_THAT(with_hole(31, 47, -21, -5), HasSubstr("warning: 1 hole, one of them"));  // cheek
+    EXPECT_THAT(with_hole(-9, 9, 57, 75), HasSubstr("warning: 1 hole, one of them"));    // forehead
+    EXPECT_THAT(with_hole(17, 43, 29, 43), HasSubstr("note: 1 hole, the largest"));      // eye
+    EXPECT_THAT(with_hole(-47, -15, 47, 57), HasSubstr("note: 1 hole, the largest"));    // brow
+    EXPECT_THAT(with_hole(-17, 17, -9, 3), HasSubstr("note: 1 hole, the largest"));      // nostrils
+    EXPECT_THAT(with_hole(-25, 25, -41, -27), HasSubstr("note: 1 hole, the largest"));   // lips
+    EXPECT_THAT(with_hole(-15, 15, -77, -67), HasSubstr("note: 1 hole, the largest"));   // under the chin
+    EXPECT_THAT(with_hole(35, 41, -15, -9), HasSubstr("note: 1 hole, the largest"));     // cheek, but small
+}
+
 TEST(Doctor, holes_of_a_mesh_are_its_inner_rims) {
     const MadeFace face = mapped(make_face(), [](auto p) { return geometry::Point(p.x(), p.y(), 0); });
     geometry::RangeScan mesh;
@@ -252,6 +320,19 @@ TEST(Doctor, unreadable_landmarks_do_not_hide_what_is_wrong_with_the_scan) {
     EXPECT_THAT(found(findings, "unreadable"), HasSubstr("bs000_N_N_0.lm3"));
     EXPECT_THAT(found(findings, "spikes"), HasSubstr("1 point"));
     EXPECT_EQ(found(findings, "landmarks-missing"), "");
+    EXPECT_THAT(findings[0].where, testing::EndsWith("bs000_N_N_0.lm3"));
+    EXPECT_EQ(findings[0].mend, "mend, replace or restore the landmark file");
+}
+
+TEST(Doctor, an_unreadable_scan_and_unreadable_landmarks_are_two_findings_each_at_its_file) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    std::filesystem::resize_file(folder.path() / "bs000/bs000_N_N_0.bnt", 1000);
+    geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm3", "damaged");
+    const auto findings = check_scan(open_database(folder.path()).scans[0]);
+    ASSERT_EQ(findings.size(), 2U);
+    EXPECT_THAT(findings[0].where, testing::EndsWith(".bnt"));
+    EXPECT_THAT(findings[1].where, testing::EndsWith(".lm3"));
 }
 
 TEST(Doctor, a_truncated_scan_is_one_finding) {

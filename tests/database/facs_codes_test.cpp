@@ -31,6 +31,13 @@ TEST(FacsCodes, a_line_that_is_not_understood_is_remarked_with_its_number) {
     EXPECT_THAT(codes.remarks[0], HasSubstr("list: line 4: 'bs003_E_FEAR_0 -> 1+F2'"));
 }
 
+TEST(FacsCodes, header_lines_may_show_the_form_with_its_arrow) {
+    const auto codes = parse_facs_codes("scores of -> all\nname -> code+code+...\nbs003_N_N_0 -> 0\n", "list");
+    EXPECT_EQ(codes.scores.size(), 1U);
+    EXPECT_TRUE(codes.remarks.empty());
+    EXPECT_EQ(parse_facs_codes("bs003_N_N_0 -> 0\n", "list").scores.size(), 1U);  // without a header
+}
+
 TEST(FacsCodes, another_file_is_refused_by_name) {
     EXPECT_THAT(message_of<InputError>([] { (void)parse_facs_codes("a\nb\nc\n", "list"); }),
                 HasSubstr("list: no line is of the form"));

@@ -7,6 +7,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/landmark_io.h"
 #include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
 
@@ -140,6 +141,52 @@ TEST_P(OneSided, codes_are_taken_as_the_side_whose_mouth_corner_moves) {
 
 INSTANTIATE_TEST_SUITE_P(NamesAreTheSubjectsAndTheViewers, OneSided, testing::Values(false, true));
 
+/// A neutral scan and one-sided smiles whose names are the viewer's, with the landmarks in `format`.
+void write_viewers_smiles(const std::filesystem::path& root, const std::string& subject,
+                          const std::vector<std::string>& codes, const std::string& extension) {
+    const auto face = make_face();
+    const auto write = [&](const std::string& name, const geometry::Landmarks& marks) {
+        MadeFace made = face;
+        made.landmarks = marks;
+        write_scan(root, name, made);
+        const auto stem = root / subject / name;
+        std::filesystem::remove(stem.string() + ".lm3");
+        geometry::write_landmarks(stem.string() + extension, marks);
+    };
+    write(subject + "_N_N_0", face.landmarks);
+    for (const auto& code : codes)
+        write(subject + "_LFAU_" + code + "_0",
+              moved(face.landmarks, {{code.back() == 'L' ? "mouth_corner_right" : "mouth_corner_left", {0, 8, -2}}}));
+}
+
+TEST(OneSidedCodes, are_decided_by_landmarks_of_any_format) {
+    for (const char* extension : {".pp", ".csv", ".fcsv", ".mrk.json"}) {
+        const TemporaryFolder folder;
+        write_viewers_smiles(folder.path(), "bs000", {"12L", "12R", "14L"}, extension);
+        const auto database = open_database(folder.path());
+        EXPECT_EQ(database.code_sides.other_side, 3) << extension;
+        EXPECT_TRUE(database.code_sides.swapped) << extension;
+    }
+}
+
+TEST(OneSidedCodes, two_votes_of_one_subject_turn_no_names_and_of_two_subjects_do) {
+    const TemporaryFolder folder;
+    write_viewers_smiles(folder.path(), "bs000", {"12L", "12R"}, ".csv");
+    const auto few = open_database(folder.path());
+    EXPECT_EQ(few.code_sides.other_side, 2);
+    EXPECT_FALSE(few.code_sides.swapped);
+    EXPECT_THAT(few.remarks, ElementsAre(HasSubstr("taken as the subject's left: to turn all names takes 3 scans")));
+    write_viewers_smiles(folder.path(), "bs001", {"12L"}, ".csv");
+    EXPECT_TRUE(open_database(folder.path()).code_sides.swapped);
+}
+
+TEST(OneSidedCodes, that_nobody_can_decide_are_remarked) {
+    const TemporaryFolder folder;
+    for (const char* name : {"bs000_N_N_0", "bs000_LFAU_12L_0"}) write_scan(folder.path(), name, make_face());
+    EXPECT_THAT(open_database(folder.path()).remarks,
+                ElementsAre(HasSubstr("0 scans move the subject's own side, 0 the other, 1 are undecided")));
+}
+
 TEST(OneSidedCodes, equal_motion_of_both_corners_decides_nothing) {
     const auto neutral = make_face().landmarks;
     const auto smile = moved(neutral, {{"mouth_corner_left", {5, 6, -2}}, {"mouth_corner_right", {-5, 6, -2}}});
@@ -215,6 +262,18 @@ TEST(Load, bad_pixel_landmarks_do_not_forbid_the_scan) {
     geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm2", "# x\n");
     EXPECT_THAT(load(open_database(folder.path()).scans[0]).remarks,
                 ElementsAre(HasSubstr("bs000_N_N_0.lm2: no line gives")));
+}
+
+TEST(Load, files_that_only_the_scan_file_names_are_listed) {
+    const TemporaryFolder folder;
+    geometry::write_atomically(folder.path() / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n");
+    geometry::write_atomically(folder.path() / "manifest.csv", "subject,expression,scan\nanna,N,a.obj\n");
+    EXPECT_THAT(load(open_database(folder.path()).scans[0]).files_looked_for,
+                ElementsAre(std::filesystem::canonical(folder.path()) / "a.mtl"));
+    geometry::write_atomically(folder.path() / "a.mtl", "newmtl face\nmap_Kd skin.png\n");
+    EXPECT_THAT(load(open_database(folder.path()).scans[0]).files_looked_for,
+                ElementsAre(std::filesystem::canonical(folder.path()) / "a.mtl",
+                            std::filesystem::canonical(folder.path()) / "skin.png"));
 }
 
 TEST(Load, two_labels_for_one_point_are_refused_with_the_file) {

@@ -95,6 +95,8 @@ std::vector<std::string> seeds() {
     files.push_back(encoded(mesh, false));
     mesh.faces.texture_corners = {0, 1, 2, 3, 4, 4, 4};
     files.push_back(encoded(mesh, true));
+    if (format == MeshFormat::ply)
+        files.emplace_back("ply\nformat binary_little_endian 1.0\nelement vertex 1000000000000\nend_header\n");
     if (format == MeshFormat::vtp)
         files.emplace_back(
             "<VTKFile type=\"PolyData\" compressor=\"vtkZLibDataCompressor\"><PolyData><Piece "

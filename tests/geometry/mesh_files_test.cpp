@@ -132,6 +132,16 @@ TEST_P(PlyRoundTrip, a_polygon_too_large_for_a_byte_count_comes_back) {
     EXPECT_EQ(corner_positions(read), corner_positions(mesh));
 }
 
+TEST(Ply, rows_without_a_property_are_refused_before_anything_is_allocated) {
+    for (const char* encoding : {"ascii", "binary_little_endian", "binary_big_endian"})
+        EXPECT_THAT(message_of([&] {
+                        (void)decode(MeshFormat::ply, std::string("ply\nformat ") + encoding +
+                                                          " 1.0\nelement vertex 1000000000000\nend_header\n");
+                    }),
+                    HasSubstr("scan: element 'vertex': the header promises 1000000000000 rows but no property"))
+            << encoding;
+}
+
 TEST(Ply, ascii_with_other_elements_lists_and_normals_is_read_by_name) {
     const auto file =
         decode(MeshFormat::ply,

@@ -223,6 +223,27 @@ TEST(Pcd, absurd_sizes_are_refused_before_anything_is_allocated) {
     EXPECT_THAT(refused(MeshFormat::pcd, text), HasSubstr("the compressed data is damaged"));
 }
 
+TEST(Pcd, fields_that_would_take_more_than_256_mb_are_refused_before_they_are_unpacked) {
+    // 32 MB of zeros in 380 kB of LZF: a field of 10000 bytes for each of 3400 points is 272 MB as numbers.
+    constexpr std::uint32_t points = 3400, unpacked = points * (3 * 4 + 10000), packed = unpacked / 88 + 1;
+    std::string text =
+        "FIELDS x y z bomb\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 10000\nWIDTH 3400\nDATA binary_compressed\n";
+    for (const std::uint32_t size : {packed, unpacked})
+        for (int k = 0; k < 4; ++k) text += static_cast<char>(size >> (8 * k) & 0xFFU);
+    EXPECT_THAT(refused(MeshFormat::pcd, text + std::string(packed, '\0')),
+                HasSubstr("3400 points of 10003 values take 272081600 bytes of memory"));
+}
+
+TEST(Pcd, a_scan_has_no_attributes_decoded_and_a_mesh_has) {
+    const std::string file =
+        "FIELDS x y z q\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 1\nDATA ascii\n1 2 3 4\n";
+    EXPECT_EQ(decode(MeshFormat::pcd, file).mesh.attributes.size(), 1U);
+    const auto bare =
+        decode_mesh(MeshFormat::pcd, bytes_of(file), "scan", LengthUnit::millimetre, MeshParts::without_attributes);
+    EXPECT_TRUE(bare.mesh.attributes.empty());
+    EXPECT_EQ(bare.mesh.vertices_mm, decode(MeshFormat::pcd, file).mesh.vertices_mm);
+}
+
 // ---- range scans
 
 TEST(RangeScanFiles, texture_positions_per_corner_become_one_per_point) {

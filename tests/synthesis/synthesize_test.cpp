@@ -1,5 +1,7 @@
 #include "synthesis/synthesize.h"
 
+#include <limits>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,6 +54,7 @@ TEST_F(Synthesize, database_reads_back_with_its_landmarks_on_the_subjects_own_si
     const auto database = database::open_database(folder_ / "db");
     ASSERT_EQ(database.scans.size(), 10U);
     EXPECT_FALSE(database.code_sides.swapped);
+    EXPECT_THAT(database.remarks, testing::IsEmpty());
     const auto truth = open_truth(folder_ / "db");
     for (const auto& entry : database.scans) {
         const auto loaded = database::load(entry);
@@ -86,7 +89,7 @@ TEST_F(Synthesize, same_bytes_on_one_thread_and_on_three) {
     geometry::set_thread_count(3);
     (void)synthesize_database(folder_ / "three", *model, options_);
     EXPECT_EQ(all_files(folder_ / "one"), all_files(folder_ / "three"));
-    EXPECT_FALSE(fs::exists(folder_ / "one.part"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);  // no unfinished folder
 }
 
 TEST_F(Synthesize, further_expressions_leave_the_scans_there_were_as_they_were) {
@@ -100,6 +103,18 @@ TEST_F(Synthesize, further_expressions_leave_the_scans_there_were_as_they_were) 
         if (file.starts_with("bs")) {
             EXPECT_EQ(bytes, more.at(file)) << file;
         }
+}
+
+TEST_F(Synthesize, a_place_that_cannot_be_or_a_disk_that_is_too_small_is_found_before_the_work) {
+    EXPECT_NO_THROW(check_database_place(folder_ / "new" / "db", 1));
+    EXPECT_FALSE(fs::exists(folder_ / "new"));
+    const auto refused = [&](const fs::path& out, std::uintmax_t bytes) {
+        return database::message_of<InputError>([&] { check_database_place(out, bytes); });
+    };
+    EXPECT_THAT(refused(folder_ / "db", std::numeric_limits<std::uintmax_t>::max()), HasSubstr("MB free"));
+    geometry::write_atomically(folder_ / "full" / "notes.txt", "mine");
+    EXPECT_THAT(refused(folder_ / "full", 0), HasSubstr("exists already"));
+    EXPECT_THAT(refused(folder_ / "full/notes.txt/db", 0), HasSubstr("notes.txt"));
 }
 
 TEST_F(Synthesize, expressions_without_a_shape_are_left_out_by_name) {
