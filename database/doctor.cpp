@@ -111,7 +111,11 @@ void check_unit(const LoadedScan& loaded, const DoctorOptions& options, Report& 
     const double slack = scan_alone ? 2 : 1;  // a box is no measure of a face
     if (ratio * unit->mm < options.min_size_ratio / slack || ratio * unit->mm > options.max_size_ratio * slack)
         return report.add(Severity::error, "unit", what,
-                          fmt::format("convert {} to millimetres, and check the landmarks", coordinates), where);
+                          fmt::format("convert {} to {}, and check the landmarks", coordinates,
+                                      loaded.entry.unit == geometry::LengthUnit::millimetre
+                                          ? "millimetres"
+                                          : "the unit that manifest.csv gives them"),
+                          where);
     // The table has one unit for both files.
     const bool in_table = !apart && loaded.entry.layout == DatabaseLayout::manifest && unit->of_manifest != nullptr;
     report.add(

@@ -109,6 +109,14 @@ TEST(Doctor, where_only_scan_or_landmarks_have_another_unit_that_file_is_named) 
     findings = check_scan(scan);
     ASSERT_EQ(findings[0].kind, "unit");
     EXPECT_EQ(findings[0].mend, "multiply the coordinates of the scan by 10");
+    scan = loaded(mapped(make_face(), [](auto p) { return geometry::Point(10 * p); }));  // mm, and the table says cm
+    scan.landmarks = make_face().landmarks;
+    scan.entry.unit = geometry::LengthUnit::centimetre;
+    EXPECT_THAT(found(check_scan(scan), "unit"),
+                HasSubstr("convert the coordinates of the scan to the unit that manifest.csv gives them"));
+    scan = loaded(small);
+    scan.landmarks = make_face().landmarks;
+    findings = check_scan(scan);
     EXPECT_EQ(findings[0].where, "bs000_N_N_0.bnt");
 }
 
