@@ -32,8 +32,8 @@ enum class MeshParts { all, without_attributes };
 /// What a file holds beside the surface.
 struct MeshFile {
     Mesh mesh;
-    std::string texture_file;   ///< image in the mesh's folder or below it ("tex/skin.png"); empty: none
-    std::string material_file;  ///< of an OBJ: its mtllib, likewise
+    std::string texture_file;        ///< image in the mesh's folder or below it ("tex/skin.png"); empty: none
+    std::string material_file = {};  ///< of an OBJ: its mtllib, likewise
     int rows = 0;  ///< of a PCD with HEIGHT > 1, in the file's order; its NaN points are then still in `mesh`
     int cols = 0;
 };

@@ -286,8 +286,8 @@ ModelProvenance provenance_from_json(const nlohmann::json& json) {
     provenance.method = read_field<std::string>(json, "method");
     auto& options = provenance.options;
     options.frame = read_field<std::string>(json, "frame") == "affine" ? Frame::affine : Frame::similarity;
-    options.kernel = read_field<std::string>(json, "kernel") == "r" ? geometry::SplineKernel::r
-                                                                    : geometry::SplineKernel::r2_log_r2;
+    options.kernel =
+        read_field<std::string>(json, "kernel") == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
     options.smoothing = read_field<double>(json, "smoothing");
     options.anchors = read_field<bool>(json, "anchors");
     options.wrinkle_points = read_field<bool>(json, "wrinkle_points");

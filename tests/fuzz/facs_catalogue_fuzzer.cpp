@@ -47,7 +47,8 @@ void fuzz_one(std::span<const std::uint8_t> bytes) {
 std::vector<std::string> seeds() {
     const std::string unit =
         "[[au]]\nnumber = 12\nname = \"Lip Corner Puller\"\nregion = \"lower\"\nsides = \"paired\"\n"
-        "muscles = [{ name = \"zygomaticus major\", source = \"somebody 2000\" }]\narkit = \"mouthSmile\"\n"
+        "muscles = [{ name = \"zygomaticus major\", source = \"cheek bone to mouth corner\", reference = \"somebody "
+        "2000\" }]\narkit = \"mouthSmile\"\n"
         "zone = [{ at = { mouth_corner = 1.0 }, offset = [0.1, 0.1], radii = [0.4, 0.4] }]\n"
         "points = [{ name = \"corner\", kind = \"muscle\", at = { mouth_corner = 1.0 } },\n"
         "  { name = \"fold\", kind = \"wrinkle\", at = { mouth_corner = 0.5, nose_wing = 0.5 }, offset = [0.05, 0.0] "
