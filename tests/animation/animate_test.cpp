@@ -511,7 +511,7 @@ TEST_F(Animate, a_texture_that_is_no_picture_is_not_handed_on) {
                         (void)write_animated_face(folder.path() / file, animated, target, names,
                                                   folder.path() / "key.png");
                     }),
-                    HasSubstr("key.png: is not a PNG image"));
+                    HasSubstr("key.png: is neither a PNG nor a JPEG image"));
         EXPECT_FALSE(std::filesystem::exists(folder.path() / file));
     }
 }
