@@ -116,7 +116,8 @@ int run_figure(int argc, char** argv) {
         app.add_option("--controls", given.controls, "CSV name,x,y,z,kind: muscle (red) and wrinkle (orange) controls")
             ->allow_extra_args(false),
         app.add_option("--arrows", given.arrows, "CSV x,y,z,to_x,to_y,to_z")->allow_extra_args(false),
-        app.add_option("--texture", given.textures, "PNG on the face; once, or once a panel")->allow_extra_args(false),
+        app.add_option("--texture", given.textures, "PNG or JPEG on the face; once, or once a panel")
+            ->allow_extra_args(false),
         app.add_flag("--textured", given.textured, "Use the image that each mesh file names"),
         app.add_option("--unit", given.unit, "Of the files: mm, cm or m")->capture_default_str(),
         app.add_option("--view", given.views,

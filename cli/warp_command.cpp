@@ -25,8 +25,9 @@ const std::map<std::string, geometry::SplineKernel> kernel_names = {{"r", geomet
 
 int run_warp(const WarpArguments& arguments) {
     for (const auto& file : {arguments.input, arguments.from, arguments.to}) database::refuse_hidden_file(file);
-    const auto report =
-        geometry::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, arguments.options);
+    auto options = arguments.options;
+    options.check_texture = [](const std::filesystem::path& image) { database::refuse_hidden_file(image); };
+    const auto report = geometry::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, options);
     if (arguments.common.json) {
         std::cout << nlohmann::json{{"schema", 1},
                                     {"output", arguments.output.string()},

@@ -229,7 +229,9 @@ Panel load_panel(const PanelDescription& description) {
     } else if (description.textured) {
         if (face.texture_file.empty())
             throw InputError(fmt::format("{}: names no texture; give one", description.mesh.string()));
-        panel.texture = geometry::read_image(description.mesh.parent_path() / face.texture_file);
+        const auto image = description.mesh.parent_path() / face.texture_file;
+        database::refuse_hidden_file(image);
+        panel.texture = geometry::read_image(image);
     }
     if (!description.landmarks.empty())
         panel.markers.push_back({.name = "landmarks",

@@ -17,11 +17,13 @@ constexpr std::uint64_t most_pixels = 100'000'000;
 // An empty block of 64 pixels takes four bits or more, and colour may be stored at a quarter of the size.
 constexpr std::uint64_t most_pixels_per_byte = 256;
 constexpr long most_memory = 512L << 20;
+constexpr int most_passes = 500;  // a progressive file may refine the same image without end
 
 /// libjpeg reports errors by a call that must not return; it is left by a jump, so everything that lives across one is
 /// plain data.
 struct State {
     jpeg_error_mgr errors;  // first: libjpeg hands back a pointer to it
+    jpeg_progress_mgr progress;
     std::jmp_buf jump;
     char message[JMSG_LENGTH_MAX] = {};
 };
@@ -37,12 +39,21 @@ void on_message(j_common_ptr info, int level) {
     if (level < 0 && info->err->msg_code == JWRN_JPEG_EOF) on_error(info);
 }
 
+void on_progress(j_common_ptr info) {
+    if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number <= most_passes) return;
+    auto* state = reinterpret_cast<State*>(info->err);
+    std::strcpy(state->message, "more than 500 passes over the image");
+    std::longjmp(state->jump, 1);
+}
+
 void begin(jpeg_decompress_struct& info, State& state, std::span<const std::uint8_t> bytes) {
     info.err = jpeg_std_error(&state.errors);
     state.errors.error_exit = on_error;
     state.errors.emit_message = on_message;
     jpeg_create_decompress(&info);
     info.mem->max_memory_to_use = most_memory;
+    state.progress.progress_monitor = on_progress;
+    info.progress = &state.progress;
     jpeg_mem_src(&info, bytes.data(), bytes.size());
 }
 

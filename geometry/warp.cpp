@@ -58,8 +58,9 @@ WarpInput read_input(const std::filesystem::path& input) {
 /// The image as one that belongs to the output, so that no other of its name is taken for it. @return its name; empty
 /// if there is no image.
 std::string copy_texture(const std::string& texture, const std::filesystem::path& folder,
-                         const std::filesystem::path& output) {
+                         const std::filesystem::path& output, const WarpOptions& warp_options) {
     if (texture.empty() || !std::filesystem::exists(folder / texture)) return {};
+    if (warp_options.check_texture) warp_options.check_texture(folder / texture);
     const auto image = read_text(folder / texture);
     const auto extension = std::filesystem::path(texture).extension().string();
     const auto copy = output.parent_path() / (output.stem().string() + "_texture" + extension);
@@ -67,12 +68,13 @@ std::string copy_texture(const std::string& texture, const std::filesystem::path
     return copy.filename().string();
 }
 
-void write_output(const std::filesystem::path& output, WarpInput warp, const std::filesystem::path& input) {
+void write_output(const std::filesystem::path& output, WarpInput warp, const std::filesystem::path& input,
+                  const WarpOptions& warp_options) {
     auto& mesh = warp.file.mesh;
     if (!is_csv(output)) {
         MeshWriteOptions options;
         if (const auto format = mesh_format(output); format == MeshFormat::ply || format == MeshFormat::obj)
-            options.texture_file = copy_texture(warp.file.texture_file, input.parent_path(), output);
+            options.texture_file = copy_texture(warp.file.texture_file, input.parent_path(), output, warp_options);
         write_mesh(output, mesh, options);
         return;
     }
@@ -153,7 +155,7 @@ WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::p
                             before[i].x(), before[i].y(), before[i].z()));
         report.largest_displacement = std::max(report.largest_displacement, moved);
     }
-    write_output(output, std::move(warp), input);
+    write_output(output, std::move(warp), input, options);
     return report;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct WarpOptions {
     double smoothing = 0.0;              ///< X in K + X I, in the unit of K as the files give it
     double min_separation_ratio = 1e-9;  ///< closer landmarks are taken for one point marked twice
     double min_thickness_ratio = 1e-5;   ///< flatter clouds say nothing about what lies off their plane
+    /// Asked before the image that a mesh names is copied; throws to refuse it.
+    std::function<void(const std::filesystem::path&)> check_texture = {};
     void check() const;
 };
 

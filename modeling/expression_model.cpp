@@ -279,15 +279,28 @@ nlohmann::json provenance_to_json(const ModelProvenance& provenance) {
             {"average_face", provenance.average_face}};
 }
 
+Frame parse_frame(const nlohmann::json& value) {
+    const auto name = value.get<std::string>();
+    if (name != "affine" && name != "similarity")
+        throw InputError(fmt::format("{} is neither affine nor similarity", geometry::in_quotes(name)));
+    return name == "affine" ? Frame::affine : Frame::similarity;
+}
+
+geometry::SplineKernel parse_kernel(const nlohmann::json& value) {
+    const auto name = value.get<std::string>();
+    for (const auto kernel : {geometry::SplineKernel::r, geometry::SplineKernel::r2_log_r2})
+        if (name == kernel_name(kernel)) return kernel;
+    throw InputError(fmt::format("{} is neither r nor r2logr", geometry::in_quotes(name)));
+}
+
 ModelProvenance provenance_from_json(const nlohmann::json& json) {
     using geometry::read_field;
     ModelProvenance provenance;
     provenance.mimik_version = read_field<std::string>(json, "mimik");
     provenance.method = read_field<std::string>(json, "method");
     auto& options = provenance.options;
-    options.frame = read_field<std::string>(json, "frame") == "affine" ? Frame::affine : Frame::similarity;
-    options.kernel =
-        read_field<std::string>(json, "kernel") == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
+    options.frame = read_field(json, "frame", parse_frame);
+    options.kernel = read_field(json, "kernel", parse_kernel);
     options.smoothing = read_field<double>(json, "smoothing");
     options.anchors = read_field<bool>(json, "anchors");
     options.wrinkle_points = read_field<bool>(json, "wrinkle_points");
@@ -384,10 +397,7 @@ ExpressionModel decode_expression_model(std::string_view text, const std::string
         model.expression = read_field<std::string>(document, "expression");
         model.moves_upper_face = read_field<bool>(document, "moves_upper_face");
         model.moves_lower_face = read_field<bool>(document, "moves_lower_face");
-        const auto frame = read_field<std::string>(document, "frame");
-        if (frame != "affine" && frame != "similarity")
-            throw InputError(fmt::format("frame {} is neither affine nor similarity", geometry::in_quotes(frame)));
-        model.frame = frame == "affine" ? Frame::affine : Frame::similarity;
+        model.frame = read_field(document, "frame", parse_frame);
         model.sources = read_field<std::vector<std::string>>(document, "sources");
         model.mouth_width_mm = read_field<double>(document, "mouth_width_mm");
         model.landmarks = geometry::landmarks_from_json(document, "landmarks");

@@ -269,13 +269,24 @@ private:
             keep_hidden_list();  // before the first face that it is about
         });
     }
-    /// For commands that take bare files.
+    /// For commands that take bare files. A list that somebody else put there only grows.
     void keep_hidden_list() const {
+        static constexpr std::string_view mark = "# written by 'mimik preprocess'\n";
         const auto file = root_ / "unallowed_subjects.txt";
         std::error_code error;
-        if (!database_.hidden_subjects.empty())
-            geometry::write_atomically(file, database::hidden_subjects_text(database_.hidden_subjects));
-        else if (fs::exists(file, error) && !fs::remove(file, error))
+        const bool there = fs::exists(file, error);
+        auto text = there ? geometry::read_text(file) : std::string();
+        if (there && !text.starts_with(mark)) {
+            std::vector<std::string> missing;
+            for (const auto& subject : database_.hidden_subjects)
+                if (("\n" + text + "\n").find("\n" + subject + "\n") == std::string::npos) missing.push_back(subject);
+            if (missing.empty()) return;
+            if (!text.empty() && text.back() != '\n') text += '\n';
+            geometry::write_atomically(file, text + database::hidden_subjects_text(missing));
+        } else if (!database_.hidden_subjects.empty())
+            geometry::write_atomically(file,
+                                       std::string(mark) + database::hidden_subjects_text(database_.hidden_subjects));
+        else if (there && !fs::remove(file, error))
             throw InputError(fmt::format("{}: hides subjects whom the database shows and cannot be removed ({})",
                                          file.string(), error.message()));
     }

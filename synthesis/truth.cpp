@@ -47,7 +47,11 @@ Truth open_truth(const fs::path& database_root) {
 Truth decode_truth(std::string_view text, const std::string& name) {
     return geometry::read_json_document(text, name, mend, [&](const json& document) {
         Truth truth;
-        truth.seed = geometry::whole_number_below(std::numeric_limits<std::size_t>::max(), document.at("seed"), "seed");
+        truth.seed = geometry::read_field(document, "seed", [](const json& value) {
+            if (!value.is_number_unsigned())
+                throw InputError(geometry::shown(value) + " is no whole number of 0 or more");
+            return value.get<std::uint64_t>();
+        });
         const auto& model = document.at("face_model");
         truth.face_model = geometry::read_field<std::string>(model, "name");
         const auto vertices =

@@ -57,6 +57,14 @@ TEST(Jpeg, errors_name_the_file_and_what_is_wrong) {
     EXPECT_THAT(refused(with_size('\x27', '\x10')), HasSubstr("10000 x 10000, but the file has only"));
 }
 
+TEST(Jpeg, a_file_that_refines_its_image_without_end_is_refused) {
+    auto endless = jpeg_of(64, 64, 1, true);
+    const auto last = endless.rfind("\xFF\xDA");  // the last pass, from its marker to the end of the file's
+    const auto pass = endless.substr(last, endless.size() - 2 - last);
+    for (int k = 0; k < 600; ++k) endless.insert(endless.size() - 2, pass);
+    EXPECT_THAT(message_of([&] { (void)decode_jpeg(bytes_of(endless), "a.jpg"); }), HasSubstr("more than 500 passes"));
+}
+
 TEST(Images, are_known_by_what_they_begin_with_and_not_by_their_name) {
     const TemporaryFolder folder;
     const auto jpeg = jpeg_of(12, 7, 3);

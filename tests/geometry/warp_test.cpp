@@ -101,6 +101,11 @@ TEST_F(Warp, takes_the_texture_image_along_under_a_name_that_no_other_image_has)
     }
     EXPECT_EQ(read_text(at("elsewhere/out_texture.png")), "not decoded here");
     EXPECT_EQ(read_text(at("elsewhere/skin.png")), "somebody else's");
+    WarpOptions nobody;
+    nobody.check_texture = [](const std::filesystem::path& image) { throw InputError(image.filename().string()); };
+    EXPECT_EQ(message_of([&] { (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("no.obj"), nobody); }),
+              "skin.png");
+    EXPECT_FALSE(std::filesystem::exists(at("no.obj")) || std::filesystem::exists(at("no_texture.png")));
     std::filesystem::remove(at("tex/skin.png"));
     (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("bare.obj"));
     EXPECT_EQ(read_mesh_file(at("bare.obj")).texture_file, "");

@@ -226,6 +226,11 @@ TEST_F(ExpressionModelTest, a_stored_model_says_how_it_came_about_and_what_diffe
     EXPECT_EQ(read.unusable_scans, model.unusable_scans);
     write_expression_model(copy, read);
     EXPECT_EQ(geometry::read_text(copy), geometry::read_text(file));
+    auto text = geometry::read_text(file);
+    const std::string kernel = "\"r2logr\"";
+    geometry::write_atomically(copy, text.replace(text.find(kernel), kernel.size(), "\"banana\""));
+    EXPECT_THAT(message_of<InputError>([&] { (void)read_expression_model(copy); }),
+                HasSubstr("provenance: kernel: 'banana' is neither r nor r2logr"));
     auto here = *model.provenance;
     here.mimik_version = "1.2.4";
     here.catalogue = "built-in catalogue";  // the same content by another name
@@ -272,7 +277,7 @@ TEST_F(ExpressionModelTest, a_damaged_model_file_is_named) {
     text.replace(text.find("\"similarity\""), 12, "\"simulation\"");
     geometry::write_atomically(file, text);
     EXPECT_THAT(message_of<InputError>([&] { (void)read_expression_model(file); }),
-                HasSubstr("frame 'simulation' is neither"));
+                HasSubstr("frame: 'simulation' is neither"));
 }
 
 TEST_F(ExpressionModelTest, hostile_values_are_refused_with_file_and_field) {
@@ -290,7 +295,7 @@ TEST_F(ExpressionModelTest, hostile_values_are_refused_with_file_and_field) {
                 testing::ContainsRegex("m.json: points\\[[0-9]+\\]: displacement_mm: "));
     EXPECT_THAT(error(changed("\"mouth_width_mm\": ", "\"mouth_width_mm\": 1e")), HasSubstr("m.json: "));
     EXPECT_THAT(error(changed("\"frame\": \"", "\"frame\": \"" + std::string(1'000'000, 'x'))),
-                HasSubstr("m.json: frame 'xxx"));
+                HasSubstr("m.json: frame: 'xxx"));
     EXPECT_LT(error(changed("\"frame\": \"", "\"frame\": \"" + std::string(1'000'000, 'x'))).size(), 200U);
     model.points.assign(10'001, model.points.front());  // a spline through a million points would fill any memory
     EXPECT_THAT(error(encode_expression_model(model)),

@@ -330,6 +330,18 @@ TEST_F(WorkspaceTest, bare_files_of_hidden_subjects_are_refused_in_a_workspace_u
     EXPECT_FALSE(Workspace(workspace_).hidden("bs000"));
 }
 
+TEST_F(WorkspaceTest, a_list_that_somebody_put_into_the_workspace_is_kept_and_only_grows) {
+    (void)preprocess();
+    const auto list = workspace_ / "unallowed_subjects.txt";
+    geometry::write_atomically(list, "bs000");
+    (void)preprocess();
+    EXPECT_EQ(geometry::read_text(list), "bs000");
+    geometry::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
+    (void)preprocess();
+    (void)preprocess();
+    EXPECT_EQ(geometry::read_text(list), "bs000\nbs001\n");
+}
+
 TEST_F(WorkspaceTest, who_is_put_on_the_list_after_preprocessing_is_hidden_at_once) {
     geometry::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
     (void)preprocess();

@@ -207,7 +207,10 @@ TEST(Truth, a_name_given_to_many_vertices_stays_short_and_no_scan_lies_elsewhere
                 HasSubstr("in face_model.regions has 1000000 letters, more than 64"));
     EXPECT_THAT(error("bs000_N_N_0", "../bs000_N_N_0"),
                 HasSubstr("t.json: scans[0]: '../bs000_N_N_0' is no scan name"));
-    EXPECT_THAT(error("\"seed\": 1", "\"seed\": -1"), HasSubstr("t.json: seed is -1"));
+    EXPECT_THAT(error("\"seed\": 1", "\"seed\": -1"), HasSubstr("t.json: seed: -1 is no whole number"));
+    const std::string largest = "18446744073709551615";
+    EXPECT_EQ(decode_truth(small_truth("\"seed\": 1", "\"seed\": " + largest), "t.json").seed,
+              std::numeric_limits<std::uint64_t>::max());
     EXPECT_THAT(error("\"subjects\": []", "\"subjects\": [{\"name\": \"bs000\", \"sex\": null}]"),
                 HasSubstr("t.json: subjects[0]: sex: type must be string, but is null"));
 }
