@@ -177,9 +177,9 @@ private:
 
 TargetCases score_target(const PerformanceReader& reader, const ExpressionCast& cast, std::size_t t,
                          const CaseChoice& choice, FailureList& failures) {
-    const TargetCases none{.methods = std::vector<std::vector<CaseResult>>(choice.methods.size()),
-                           .true_field = {},
-                           .true_field_mean = {}};
+    TargetCases none{.methods = std::vector<std::vector<CaseResult>>(choice.methods.size()),
+                     .true_field = {},
+                     .true_field_mean = {}};
     const auto shared = models_shared_by(choice.methods);
     try {
         auto cases = none;

@@ -156,7 +156,7 @@ std::size_t least_row_bytes(const Element& element, Encoding encoding) {
     std::size_t bytes = 0;
     for (const auto& p : element.properties)
         bytes += encoding == Encoding::ascii ? 2 : p.count_type ? size_of(*p.count_type) : size_of(p.type);
-    return encoding == Encoding::ascii ? std::max<std::size_t>(bytes, 1) : bytes;
+    return bytes;
 }
 
 void check_count(const Element& element, Encoding encoding, std::size_t bytes_left, const std::string& name) {
@@ -164,7 +164,7 @@ void check_count(const Element& element, Encoding encoding, std::size_t bytes_le
     if (element.count > 0 && element.properties.empty())
         throw InputError(fmt::format("{}: element {}: the header promises {} rows but no property; its header is wrong",
                                      name, in_quotes(element.name), element.count));
-    const auto row = least_row_bytes(element, encoding);
+    const auto row = std::max<std::size_t>(1, least_row_bytes(element, encoding));
     // The last line of a text file may lack its end.
     const auto available = bytes_left + (encoding == Encoding::ascii ? 1 : 0);
     if (element.count > 0 && element.count > available / row)
