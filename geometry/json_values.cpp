@@ -37,7 +37,7 @@ namespace {
 
 /// "[json.exception.type_error.302] type must be string, but is null" without the number.
 std::string words_of(const std::exception& fault) {
-    const std::string what = fault.what();
+    std::string what = fault.what();
     if (!what.starts_with("[json.")) return what;
     return what.substr(std::min(what.find("] ") + 2, what.size())).substr(0, 300);
 }
