@@ -12,25 +12,56 @@ namespace mimik::geometry {
 
 using nlohmann::json;
 
-json parse_json(std::string_view text, const std::string& name, const JsonLimits& limits) {
-    std::size_t values = 0;
-    const auto guard = [&](int depth, json::parse_event_t event, json&) {
-        if (depth > limits.deepest)
-            throw InputError(
-                fmt::format("{}: the JSON nests deeper than {} levels; is it the right file?", name, limits.deepest));
-        if (event != json::parse_event_t::object_end && event != json::parse_event_t::array_end &&
-            ++values > limits.most_values)
-            throw InputError(
-                fmt::format("{}: the JSON has more than {} values; is it the right file?", name, limits.most_values));
-        return true;
-    };
-    try {
-        return json::parse(text.begin(), text.end(), guard);
-    } catch (const json::parse_error& e) {
-        throw InputError(fmt::format("{}: byte {}: the JSON is damaged or truncated", name, e.byte));
-    } catch (const json::out_of_range&) {
-        throw InputError(fmt::format("{}: the JSON holds a number too large for a double; correct it", name));
+namespace {
+
+/// Reads without keeping anything, so that what is too deep or too much is found before it costs memory. The library's
+/// callback while building would do, but takes quadratic time over a list of objects.
+class Guard final : public nlohmann::json_sax<json> {
+public:
+    Guard(const std::string& name, const JsonLimits& limits) : name_(name), limits_(limits) {}
+    bool null() override { return count(); }
+    bool boolean(bool) override { return count(); }
+    bool number_integer(number_integer_t) override { return count(); }
+    bool number_unsigned(number_unsigned_t) override { return count(); }
+    bool number_float(number_float_t, const string_t&) override { return count(); }
+    bool string(string_t&) override { return count(); }
+    bool binary(binary_t&) override { return count(); }
+    bool key(string_t&) override { return count(); }
+    bool start_object(std::size_t) override { return descend(); }
+    bool start_array(std::size_t) override { return descend(); }
+    bool end_object() override { return --depth_ >= 0; }
+    bool end_array() override { return --depth_ >= 0; }
+    bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception& e) override {
+        if (dynamic_cast<const json::out_of_range*>(&e))
+            throw InputError(fmt::format("{}: the JSON holds a number too large for a double; correct it", name_));
+        throw InputError(fmt::format("{}: byte {}: the JSON is damaged or truncated", name_, byte));
     }
+
+private:
+    bool count() {
+        if (++values_ > limits_.most_values)
+            throw InputError(
+                fmt::format("{}: the JSON has more than {} values; is it the right file?", name_, limits_.most_values));
+        return true;
+    }
+    bool descend() {
+        if (++depth_ > limits_.deepest)
+            throw InputError(
+                fmt::format("{}: the JSON nests deeper than {} levels; is it the right file?", name_, limits_.deepest));
+        return count();
+    }
+    const std::string& name_;
+    const JsonLimits& limits_;
+    int depth_ = 0;
+    std::size_t values_ = 0;
+};
+
+}  // namespace
+
+json parse_json(std::string_view text, const std::string& name, const JsonLimits& limits) {
+    Guard guard(name, limits);
+    (void)json::sax_parse(text.begin(), text.end(), &guard);
+    return json::parse(text.begin(), text.end());
 }
 
 namespace {

@@ -1,5 +1,7 @@
 #include "geometry/json_values.h"
 
+#include <algorithm>
+#include <chrono>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -33,6 +35,22 @@ TEST(JsonDocument, damage_depth_and_number_of_values_are_refused_with_the_file) 
     EXPECT_EQ(parse_json(many + "0]", "f.json", {.most_values = 1002}).size(), 1001U);
     EXPECT_THAT(test::message_of([&] { (void)parse_json(many + "0]", "f.json", {.most_values = 1000}); }),
                 HasSubstr("f.json: the JSON has more than 1000 values"));
+}
+
+TEST(JsonDocument, a_long_list_of_objects_takes_no_longer_than_a_list_of_numbers_of_its_length) {
+    std::string objects = "[", numbers = "[";
+    for (int k = 0; k < 200'000; ++k) {
+        objects += "{},";
+        numbers += "00,";
+    }
+    std::replace(numbers.begin(), numbers.end(), '0', '1');
+    const auto seconds = [](const std::string& text) {
+        const auto start = std::chrono::steady_clock::now();
+        EXPECT_EQ(parse_json(text + "0]", "f.json").size(), 200'001U);
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    // Some 5 times on an idle machine; quadratic time would be 1000 times.
+    EXPECT_LT(seconds(objects), 100 * seconds(numbers));
 }
 
 TEST(JsonDocument, another_schema_and_what_is_no_object_are_refused) {
