@@ -96,11 +96,16 @@ int run_synthesize(const SynthesizeArguments& arguments) {
     return exit_done;
 }
 
-void add_variances(CLI::App& command, synthesis::VarianceOptions& v, OptionOfField& option_of_field) {
-    const auto add = [&](const char* name, const char* field, double& value, const char* help) {
+/// Adds options of one group, and remembers which field each of them sets.
+auto adder(CLI::App& command, OptionOfField& option_of_field, const char* group) {
+    return [&command, &option_of_field, group](const char* name, const char* field, auto& value, const char* help) {
         option_of_field[field] = name;
-        command.add_option(name, value, help)->capture_default_str()->group("Variances");
+        command.add_option(name, value, help)->capture_default_str()->group(group);
     };
+}
+
+void add_variances(CLI::App& command, synthesis::VarianceOptions& v, OptionOfField& option_of_field) {
+    const auto add = adder(command, option_of_field, "Variances");
     add("--identity", "identity", v.identity, "Spread of identity in standard deviations of the population");
     add("--amplitude-person", "amplitude_person", v.amplitude_person,
         "Log-normal factor on all expressions of a person");
@@ -121,10 +126,7 @@ void add_variances(CLI::App& command, synthesis::VarianceOptions& v, OptionOfFie
 }
 
 void add_scanner(CLI::App& command, synthesis::ScannerOptions& s, OptionOfField& option_of_field) {
-    const auto add = [&](const char* name, const char* field, auto& value, const char* help) {
-        option_of_field[field] = name;
-        command.add_option(name, value, help)->capture_default_str()->group("Scanner");
-    };
+    const auto add = adder(command, option_of_field, "Scanner");
     add("--spacing", "spacing_mm", s.spacing_mm, "Of the lattice in x and y, mm");
     add("--noise-z", "noise_z_mm", s.noise_z_mm, "Standard deviation of depth, mm");
     add("--smooth-noise-z", "smooth_noise_z_mm", s.smooth_noise_z_mm,
