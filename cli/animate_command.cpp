@@ -104,8 +104,8 @@ int run(Arguments& arguments) {
     if (!arguments.hold.empty()) {
         const auto& average = workspace.average();
         const auto labels = region_labels(workspace, arguments.regions);
-        animation_options.keep =
-            modeling::held_weights(labels, average, neutral, arguments.hold, animation_options.border_mm);
+        animation_options.keep = modeling::held_weights(
+            labels, average, neutral, modeling::listed_regions(labels, arguments.hold), animation_options.border_mm);
     }
     const auto animated = animation::animate(target, expressions, animation_options);
 
@@ -187,10 +187,8 @@ void add_animate_command(CLI::App& app, int& exit_code) {
     command->add_option("--combine", arguments->combine, "Several AUs: sum, or parallel (equal pulls do not double)")
         ->check(CLI::IsMember({"sum", "parallel"}))
         ->capture_default_str();
-    auto* hold =
-        command
-            ->add_option("--hold", arguments->hold, "Regions that stay still, e.g. nose,eye_left (see 'mimik regions')")
-            ->delimiter(',');
+    auto* hold = command->add_option("--hold", arguments->hold,
+                                     "Regions that stay still, e.g. nose,eye_left (see 'mimik regions'); repeat");
     command
         ->add_option(
             "--regions", arguments->regions,

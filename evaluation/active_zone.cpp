@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "geometry/errors.h"
-#include "geometry/point_index.h"
 #include "geometry/surface_index.h"
 #include "modeling/control_points.h"
 #include "preprocessing/control_pairs.h"
+#include "preprocessing/nearest_on_average.h"
 
 namespace mimik::evaluation {
 
@@ -84,22 +84,10 @@ ActiveZone active_zone_from_catalogue(const std::string& expression, const Avera
 }
 
 std::vector<char> carry_zone(const ActiveZone& zone, const AverageFace& average, const Face& face) {
-    std::vector<Point> known;
-    std::vector<std::size_t> place;
-    for (std::size_t v = 0; v < average.grid.size(); ++v)
-        if (average.grid.inside(v)) {
-            known.push_back(average.grid.vertices_mm[v]);
-            place.push_back(v);
-        }
-    const geometry::PointIndex index(known);
-    std::vector<Point> vertices;
-    for (std::size_t v = 0; v < face.grid.size(); ++v)
-        vertices.push_back(face.grid.inside(v) ? face.grid.vertices_mm[v] : Point(Point::Zero()));
-    preprocessing::landmark_spline(face.landmarks, average.landmarks).apply(vertices, vertices);
-    const auto nearest = index.nearest(vertices);
+    const auto nearest = preprocessing::nearest_on_average(face, average);
     std::vector<char> active(face.grid.size(), 0);
     for (std::size_t v = 0; v < active.size(); ++v)
-        if (face.grid.inside(v) && nearest[v].distance_mm < rim_mm) active[v] = zone.active[place[nearest[v].index]];
+        if (nearest[v].distance_mm < rim_mm) active[v] = zone.active[nearest[v].vertex];
     return active;
 }
 

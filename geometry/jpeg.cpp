@@ -92,9 +92,11 @@ bool read_pixels(State& state, std::span<const std::uint8_t> bytes, std::uint8_t
 }
 
 [[noreturn]] void refuse(const std::string& name, const State& state) {
-    throw InputError(
-        fmt::format("{}: the JPEG cannot be decoded ({}); it is truncated or damaged, or not RGB: save it as PNG", name,
-                    state.message));
+    if (state.errors.msg_code == JERR_CONVERSION_NOTIMPL)
+        throw InputError(
+            fmt::format("{}: the JPEG's colours are neither RGB nor grey (CMYK, say); save it as RGB or PNG", name));
+    throw InputError(fmt::format("{}: the JPEG cannot be decoded ({}); it is truncated or damaged: save it anew", name,
+                                 state.message));
 }
 
 }  // namespace

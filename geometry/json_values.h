@@ -37,6 +37,7 @@ struct JsonLimits {
 /// What `convert` makes of object[key]; every complaint names the key.
 template <typename Convert>
 auto read_field(const nlohmann::json& object, const char* key, const Convert& convert) {
+    if (!object.is_object()) throw InputError(shown(object) + " is no object");
     try {
         return convert(object.at(key));
     } catch (const InputError& e) {

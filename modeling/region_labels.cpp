@@ -13,7 +13,7 @@
 #include "geometry/point_index.h"
 #include "geometry/text.h"
 #include "modeling/average_fingerprint.h"
-#include "preprocessing/control_pairs.h"
+#include "preprocessing/nearest_on_average.h"
 
 namespace mimik::modeling {
 
@@ -138,6 +138,23 @@ RegionLabels read_region_labels(const std::filesystem::path& file, int rows, int
     return decode_region_labels(geometry::read_text(file, 1 << 26), file.string(), rows, cols);
 }
 
+std::vector<std::string> listed_regions(const RegionLabels& labels, std::span<const std::string> lists) {
+    const auto known = labels.names();
+    std::vector<std::string> listed;
+    for (const auto& list : lists) {
+        if (std::binary_search(known.begin(), known.end(), list)) {
+            listed.push_back(list);
+            continue;
+        }
+        for (std::size_t begin = 0; begin <= list.size();) {
+            const auto end = std::min(list.find(',', begin), list.size());
+            listed.emplace_back(geometry::trimmed(std::string_view(list).substr(begin, end - begin)));
+            begin = end + 1;
+        }
+    }
+    return listed;
+}
+
 std::vector<double> held_weights(const RegionLabels& labels, const preprocessing::AverageFace& average,
                                  const preprocessing::Face& face, std::span<const std::string> held, double border_mm) {
     const auto names = labels.names();
@@ -147,23 +164,13 @@ std::vector<double> held_weights(const RegionLabels& labels, const preprocessing
     std::vector<double> weights(face.grid.size(), 1.0);
     if (held.empty()) return weights;
 
-    std::vector<Point> known, vertices;
-    std::vector<std::size_t> place;
-    for (std::size_t v = 0; v < average.grid.size(); ++v)
-        if (average.grid.inside(v)) {
-            known.push_back(average.grid.vertices_mm[v]);
-            place.push_back(v);
-        }
-    for (std::size_t v = 0; v < face.grid.size(); ++v)
-        vertices.push_back(face.grid.inside(v) ? face.grid.vertices_mm[v] : Point(Point::Zero()));
-    auto on_average = vertices;
-    preprocessing::landmark_spline(face.landmarks, average.landmarks).apply(on_average, on_average);
-    const auto nearest = geometry::PointIndex(known).nearest(on_average);
-    std::vector<Point> still;
+    const auto nearest = preprocessing::nearest_on_average(face, average);
+    std::vector<Point> still, vertices(weights.size(), Point::Zero());
     std::vector<char> is_held(weights.size(), 0);
     for (std::size_t v = 0; v < weights.size(); ++v) {
         if (!face.grid.inside(v)) continue;
-        const auto& label = labels.label[place[nearest[v].index]];
+        vertices[v] = face.grid.vertices_mm[v];
+        const auto& label = labels.label[nearest[v].vertex];
         if (std::find(held.begin(), held.end(), label) == held.end()) continue;
         is_held[v] = 1;
         still.push_back(vertices[v]);

@@ -38,6 +38,10 @@ struct RegionLabels {
 /// The same in memory; `name` stands for the file.
 [[nodiscard]] RegionLabels decode_region_labels(std::string_view text, const std::string& name, int rows, int cols);
 
+/// The names that `lists` hold: each text is a region, or several with commas between them. A region of `labels` whose
+/// own name has a comma is taken whole.
+[[nodiscard]] std::vector<std::string> listed_regions(const RegionLabels& labels, std::span<const std::string> lists);
+
 /// How much of a displacement each vertex of a face keeps when the regions `held` stay still: 0 in them, rising
 /// smoothly to 1 over `border_mm` outside. Labels go to the face by the landmark spline and the nearest vertex of the
 /// average face.

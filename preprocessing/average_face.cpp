@@ -117,35 +117,86 @@ std::vector<char> reached(const geometry::QuadGrid& grid, const std::vector<char
     return seen;
 }
 
-/// Depth for `cells`, all of them holes: a membrane stretched between what was measured around them.
-void bridge(geometry::QuadGrid& grid, const std::vector<char>& cells) {
+/// What the faces say of a cell: their depths, and how the depth changes towards the next cell of the row and of the
+/// column, each summed over the faces that were measured there.
+struct Sum {
+    double total_mm = 0;
+    int count = 0;
+
+    void add(double value_mm) {
+        if (!std::isfinite(value_mm)) return;
+        total_mm += value_mm;
+        ++count;
+    }
+    [[nodiscard]] double mean_mm() const { return total_mm / count; }
+};
+struct DepthSums {
+    std::vector<Sum> depth, to_next_col, to_next_row;
+
+    explicit DepthSums(std::size_t cells) : depth(cells), to_next_col(cells), to_next_row(cells) {}
+    /// A face's depths, NaN where it was not measured.
+    void add(const std::vector<double>& depth_mm, std::size_t cols) {
+        for (std::size_t v = 0; v < depth_mm.size(); ++v) {
+            depth[v].add(depth_mm[v]);
+            if ((v + 1) % cols != 0) to_next_col[v].add(depth_mm[v + 1] - depth_mm[v]);
+            if (v + cols < depth_mm.size()) to_next_row[v].add(depth_mm[v + cols] - depth_mm[v]);
+        }
+    }
+};
+
+/// Depth of every cell inside. Where all `faces` were measured it is their mean. Where some are missing, the mean of
+/// the rest would leave a step (they lie higher or lower than all together), so there it is the surface whose slopes
+/// come closest to the mean slopes, in the least squares; across holes, where fewer than `fewest` faces have a slope, a
+/// membrane.
+void integrate_depths(geometry::QuadGrid& grid, const DepthSums& sums, std::size_t faces, double fewest) {
+    constexpr double membrane = 1e-3;  // of the weight of one face's slope
+    constexpr double pull = 1e-3;      // towards the mean depth, per face: bends over some 30 cells
     std::vector<Eigen::Index> unknown(grid.size(), -1);
     Eigen::Index count = 0;
-    for (std::size_t v = 0; v < grid.size(); ++v)
-        if (cells[v]) unknown[v] = count++;
+    for (std::size_t v = 0; v < grid.size(); ++v) {
+        if (!grid.inside(v)) continue;
+        if (static_cast<std::size_t>(sums.depth[v].count) == faces)
+            grid.vertices_mm[v].z() = sums.depth[v].mean_mm();
+        else
+            unknown[v] = count++;
+    }
     if (count == 0) return;
     std::vector<Eigen::Triplet<double>> entries;
-    Eigen::VectorXd right_side = Eigen::VectorXd::Zero(count);
+    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(count), right_side = Eigen::VectorXd::Zero(count);
+    /// `rise_mm` from one end to the other; a known end goes to the right side.
+    const auto add_end = [&](std::size_t from, std::size_t to, double weight, double rise_mm) {
+        if (unknown[to] < 0) return;
+        diagonal[unknown[to]] += weight;
+        right_side[unknown[to]] += weight * rise_mm;
+        if (unknown[from] < 0)
+            right_side[unknown[to]] += weight * grid.vertices_mm[from].z();
+        else
+            entries.emplace_back(unknown[to], unknown[from], -weight);
+    };
+    const auto add_slope = [&](std::size_t from, std::size_t to, const Sum& slope) {
+        if (!grid.inside(to)) return;
+        const bool known = slope.count > 0 && slope.count >= fewest;
+        const double weight = known ? slope.count : membrane;
+        const double rise_mm = known ? slope.mean_mm() : 0.0;
+        add_end(from, to, weight, rise_mm);
+        add_end(to, from, weight, -rise_mm);
+    };
+    const auto cols = static_cast<std::size_t>(grid.cols);
     for (std::size_t v = 0; v < grid.size(); ++v) {
-        if (!cells[v]) continue;
-        double degree = 0;
-        visit_neighbours(grid, v, [&](std::size_t other) {
-            ++degree;
-            if (cells[other])
-                entries.emplace_back(unknown[v], unknown[other], -1.0);
-            else
-                right_side[unknown[v]] += grid.vertices_mm[other].z();
-        });
-        entries.emplace_back(unknown[v], unknown[v], degree);
+        if (!grid.inside(v)) continue;
+        if ((v + 1) % cols != 0) add_slope(v, v + 1, sums.to_next_col[v]);
+        if (v + cols < grid.size()) add_slope(v, v + cols, sums.to_next_row[v]);
+        if (unknown[v] < 0 || sums.depth[v].count == 0 || sums.depth[v].count < fewest) continue;
+        const double weight = pull * sums.depth[v].count;
+        diagonal[unknown[v]] += weight;
+        right_side[unknown[v]] += weight * sums.depth[v].mean_mm();
     }
-    Eigen::SparseMatrix<double> membrane(count, count);
-    membrane.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::VectorXd depths = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(membrane).solve(right_side);
+    for (Eigen::Index k = 0; k < count; ++k) entries.emplace_back(k, k, diagonal[k]);
+    Eigen::SparseMatrix<double> system(count, count);
+    system.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::VectorXd depths = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(system).solve(right_side);
     for (std::size_t v = 0; v < grid.size(); ++v)
-        if (cells[v]) {
-            grid.vertices_mm[v].z() = depths[unknown[v]];
-            grid.origin[v] = VertexOrigin::bridged;
-        }
+        if (unknown[v] >= 0) grid.vertices_mm[v].z() = depths[unknown[v]];
 }
 
 /// What is not measured and hangs together with no cell at the edge of the grid.
@@ -253,8 +304,7 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
                                           std::numeric_limits<double>::quiet_NaN());
 
     // Faces in batches: memory stays bounded, and depths are added in the order of the subjects.
-    std::vector<double> depth_sum(cells, 0.0);
-    std::vector<int> measured(cells, 0);
+    DepthSums sums(cells);
     constexpr std::size_t batch = 16;
     for (std::size_t begin = 0; begin < count; begin += batch) {
         const std::size_t end = std::min(count, begin + batch);
@@ -282,11 +332,7 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
         });
         for (std::size_t k = 0; k < depths.size(); ++k) {
             average.scans.push_back(names[k]);
-            for (std::size_t v = 0; v < cells; ++v)
-                if (std::isfinite(depths[k][v])) {
-                    depth_sum[v] += depths[k][v];
-                    ++measured[v];
-                }
+            sums.add(depths[k], static_cast<std::size_t>(grid.cols));
         }
     }
 
@@ -297,12 +343,14 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
     };
     grid.origin.assign(cells, VertexOrigin::outside);
     for (std::size_t v = 0; v < cells; ++v) {
-        const bool together = measured[v] + measured[mirrored_cell(v)] >= 2 * needed && measured[v] >= 0.5 * needed;
-        if (measured[v] == 0 || (measured[v] < needed && !together)) continue;
-        grid.vertices_mm[v].z() = depth_sum[v] / measured[v];
-        grid.origin[v] = VertexOrigin::measured;
+        const int here = sums.depth[v].count, there = sums.depth[mirrored_cell(v)].count;
+        const bool together = here + there >= 2 * needed && here >= 0.5 * needed;
+        if (here > 0 && (here >= needed || together)) grid.origin[v] = VertexOrigin::measured;
     }
-    bridge(grid, holes(grid));
+    const auto hole = holes(grid);
+    for (std::size_t v = 0; v < cells; ++v)
+        if (hole[v]) grid.origin[v] = VertexOrigin::bridged;
+    integrate_depths(grid, sums, count, 0.5 * needed);
     // One outline for both halves: what stands on the left has its place on the right.
     const auto whole = grid.origin;
     for (std::size_t v = 0; v < cells; ++v)

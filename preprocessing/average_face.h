@@ -38,8 +38,9 @@ struct AverageFace {
                                                       int max_iterations = 50, double* rms_mm = nullptr);
 
 /// After Salah et al. (2007), as the thesis describes it in 5.3: every face is carried to the consensus landmarks by a
-/// thin-plate spline, cropped, its depth sampled on a regular x-y grid, and the depths averaged. Holes inside the face
-/// (brows and eyes that few scans show) are bridged and marked so; the outline is the same on both sides.
+/// thin-plate spline, cropped, its depth sampled on a regular x-y grid, and the depths averaged; where not all faces
+/// were measured their slopes are averaged and integrated, so that none leaves a step where it ends. Holes inside the
+/// face (brows and eyes that few scans show) are bridged and marked so; the outline is the same on both sides.
 /// @param load  gives face k of `count` (one neutral per subject); called from several threads, once per face.
 [[nodiscard]] AverageFace build_average_face(std::size_t count, const std::function<Face(std::size_t)>& load,
                                              const geometry::Landmarks& consensus,

@@ -41,7 +41,7 @@ fs::path face_stem(const fs::path& root, const ScanId& id) { return root / "face
 fs::path average_stem(const fs::path& root) { return root / "average" / "average_face"; }
 
 /// Part of every fingerprint: raise it when the steps give other numbers for the same scan and options.
-constexpr int steps_version = 3;
+constexpr int steps_version = 4;
 
 std::string describe(const PreprocessOptions& o) {
     return fmt::format("steps {} clean {} {} {} grid {} {} edge {} {} lattice {} icp {} {} {} {} {} {} {}",
@@ -77,35 +77,54 @@ bool inside(const fs::path& inner, const fs::path& outer) {
 
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
 
-/// What `.done` says of a face: what it was made from, and how long its two files are, so that a file that was deleted
-/// or cut short is noticed.
-std::string done_text(const fs::path& stem, const std::string& fingerprint) {
+constexpr std::string_view looked_for_mark = "looked for ";
+
+/// What `.done` says of a face: what it was made from, how long its two files are, so that a file that was deleted or
+/// cut short is noticed, and the state of the files that the scan's own file names: an image may come or change later.
+std::string done_text(const fs::path& stem, const std::string& fingerprint, const std::vector<fs::path>& looked_for) {
     const auto size = [&](const char* suffix) {
         std::error_code error;
         const auto bytes = fs::file_size(with_suffix(stem, suffix), error);
         return error ? std::string("absent") : fmt::format("{}", bytes);
     };
-    return fmt::format("{}\nfiles {} {}\n", fingerprint, size(".ply"), size(".json"));
+    auto text = fmt::format("{}\nfiles {} {}\n", fingerprint, size(".ply"), size(".json"));
+    for (const auto& file : looked_for) text += fmt::format("{}{}\n{}\n", looked_for_mark, file.string(), stamp(file));
+    return text;
 }
+
+/// The files that the `.done` of a face names so. A name with a line break in it is not found again: that face is made
+/// anew each time.
+std::vector<fs::path> files_looked_for(std::string_view done) {
+    std::vector<fs::path> files;
+    while (!done.empty()) {
+        const auto line = done.substr(0, done.find('\n'));
+        if (line.starts_with(looked_for_mark)) files.emplace_back(line.substr(looked_for_mark.size()));
+        done.remove_prefix(std::min(line.size() + 1, done.size()));
+    }
+    return files;
+}
+
+std::string read_done(const fs::path& stem) { return geometry::read_text(with_suffix(stem, ".done"), 1 << 20); }
 
 bool finished(const fs::path& stem, const std::string& fingerprint) {
     const auto file = with_suffix(stem, ".done");
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return false;
     try {
-        const auto expected = done_text(stem, fingerprint);
-        return geometry::read_text(file, expected.size()) == expected;
+        const auto done = read_done(stem);
+        return done == done_text(stem, fingerprint, files_looked_for(done));
     } catch (const InputError&) {
         return false;  // unreadable: made again
     }
 }
 
 /// The mark goes first and comes last: a run that ends in between leaves a face that counts as missing.
-void write_finished(const fs::path& stem, const Face& face, const std::string& fingerprint) {
+void write_finished(const fs::path& stem, const Face& face, const std::string& fingerprint,
+                    const std::vector<fs::path>& looked_for) {
     std::error_code ignored;
     fs::remove(with_suffix(stem, ".done"), ignored);
     write_face(stem, face);
-    geometry::write_atomically(with_suffix(stem, ".done"), done_text(stem, fingerprint));
+    geometry::write_atomically(with_suffix(stem, ".done"), done_text(stem, fingerprint, looked_for));
 }
 
 /// The face of an earlier run, if it is whole and was made from the same.
@@ -302,11 +321,12 @@ private:
             try {
                 auto face = read_finished(stem, neutral_fingerprint(*entry));
                 if (!face) {
-                    face = preprocess_scan(load_marked(*entry), options_);
+                    const auto loaded = load_marked(*entry);
+                    face = preprocess_scan(loaded, options_);
                     // Every later step stands on these four landmarks: now is the time to find them missing or flat.
                     (void)affine_normalisation(face->snapped_landmarks, face->snapped_landmarks);
                     begin_writing();
-                    write_finished(stem, *face, neutral_fingerprint(*entry));
+                    write_finished(stem, *face, neutral_fingerprint(*entry), loaded.files_looked_for);
                     subject.fresh = true;
                 }
                 subject.neutral_landmarks = face->landmarks;
@@ -404,7 +424,7 @@ private:
         neutral.average_from_scan = similarity;
         neutral.average_from_scan_affine = affine;
         begin_writing();
-        write_finished(stem, neutral, neutral_fingerprint(*subject.neutral));
+        write_finished(stem, neutral, neutral_fingerprint(*subject.neutral), files_looked_for(read_done(stem)));
         ++subject.preprocessed;
         return neutral;
     }
@@ -416,7 +436,8 @@ private:
             ++subject.up_to_date;
             return;
         }
-        Face face = preprocess_scan(load_marked(entry), options_);
+        const auto loaded = load_marked(entry);
+        Face face = preprocess_scan(loaded, options_);
         align_to_neutral(face, neutral,
                          stable_region_ ? stable_region_(face.id, neutral) : stable_on_every_face(neutral),
                          options_.alignment);
@@ -428,7 +449,7 @@ private:
             face.remarks.push_back(fmt::format("Eqs 5.1-5.4: {}; those of the neutral were taken", e.what()));
         }
         begin_writing();
-        write_finished(stem, face, fingerprint);
+        write_finished(stem, face, fingerprint, loaded.files_looked_for);
         ++subject.preprocessed;
     }
 

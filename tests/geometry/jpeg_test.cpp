@@ -42,7 +42,7 @@ TEST(Jpeg, errors_name_the_file_and_what_is_wrong) {
     EXPECT_THAT(refused(good.substr(0, good.size() - 40)), HasSubstr("a.jpg: the JPEG cannot be decoded"));
     EXPECT_THAT(refused(good.substr(0, 30)), HasSubstr("truncated or damaged"));
     EXPECT_THAT(refused(""), HasSubstr("a.jpg: the JPEG cannot be decoded"));
-    EXPECT_THAT(refused(jpeg_of(8, 8, 4)), HasSubstr("not RGB: save it as PNG"));
+    EXPECT_THAT(refused(jpeg_of(8, 8, 4)), HasSubstr("a.jpg: the JPEG's colours are neither RGB nor grey"));
     // Height and width stand behind the frame's marker, its length and its precision.
     const auto with_size = [&](char high, char low) {
         auto bytes = good;

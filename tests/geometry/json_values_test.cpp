@@ -69,6 +69,7 @@ TEST(JsonDocument, every_complaint_names_the_way_to_its_field) {
     EXPECT_EQ(with(R"([{"name": "chin", "position_mm": [1, 2, 3]}])"), "nothing was thrown");
     EXPECT_THAT(refused(R"({"schema": 1})", marks), StartsWith("f.json: marks: key 'marks' not found"));
     EXPECT_EQ(with("7"), "f.json: marks: 7 is no list");
+    EXPECT_EQ(with("[null]"), "f.json: marks[0]: null is no object");
     EXPECT_THAT(with(R"([{"name": "chin", "position_mm": [1, null, 3]}])"),
                 StartsWith("f.json: marks[0]: position_mm: type must be number, but is null"));
     EXPECT_THAT(with(R"([{"name": "chin", "position_mm": [1, 2, 3, 4]}])"), HasSubstr("position_mm: 4 numbers, not 3"));

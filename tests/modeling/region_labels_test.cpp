@@ -103,6 +103,12 @@ TEST_F(Regions, a_name_with_a_comma_comes_back_from_its_file) {
     EXPECT_EQ(decode_region_labels(encode_region_labels(named, "0123456789abcdef"), "l.csv", 1, 2).label, named.label);
 }
 
+TEST_F(Regions, a_list_is_split_at_commas_unless_it_is_a_regions_own_name) {
+    const RegionLabels named{1, 3, {"nose, left", "chin", "jaw"}};
+    const std::vector<std::string> lists = {"chin,jaw", "nose, left", "jaw, ear"};
+    EXPECT_THAT(listed_regions(named, lists), testing::ElementsAre("chin", "jaw", "nose, left", "jaw", "ear"));
+}
+
 TEST_F(Regions, a_held_region_keeps_nothing_and_the_face_far_from_it_everything) {
     const auto subject = test::analytic_subject(average, 1.0, 0.0);
     const std::vector<std::string> held = {"nose"};

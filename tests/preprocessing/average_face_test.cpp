@@ -1,5 +1,8 @@
 #include "preprocessing/average_face.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "geometry/errors.h"
@@ -133,6 +136,44 @@ TEST(AverageFace, a_brow_that_no_scan_shows_is_bridged_and_says_so) {
         }
     }
     EXPECT_GT(bridged, 50U);
+}
+
+TEST(AverageFace, has_no_step_where_one_of_its_faces_ends) {
+    // The second face has cheeks 4 mm deeper, and part of them was not measured.
+    const auto deeper_mm = [](const Point& p) { return 4.0 * std::clamp((std::abs(p.x()) - 25) / 10, 0.0, 1.0); };
+    const auto lost = [](double x, double y) { return std::abs(x) > 47 && y < 0 && y > -40; };
+    std::vector<Face> faces;
+    for (const bool second : {false, true}) {
+        const test::AnalyticFace face;
+        database::LoadedScan loaded;
+        loaded.scan = face.scan(1.0);
+        for (auto& p : loaded.scan.points_mm) {
+            if (second && lost(p.x(), p.y())) p.setConstant(std::numeric_limits<double>::quiet_NaN());
+            if (second) p.z() -= deeper_mm(p);
+        }
+        loaded.landmarks = face.landmarks();
+        loaded.entry.id = {"bs000", "N", "N", 0};
+        faces.push_back(preprocess_scan(loaded, {}));
+        faces.back().landmarks = face.landmarks();
+    }
+    const std::vector<Landmarks> sets = {faces[0].landmarks, faces[1].landmarks};
+    const auto average = build_average_face(
+        2, [&](std::size_t k) { return faces[k]; }, consensus_landmarks(sets));
+    const auto& grid = average.grid;
+    const auto closed_form_mm = [&](const Point& p) {
+        return test::AnalyticFace::depth(p.x(), p.y()) - 0.5 * deeper_mm(p);
+    };
+    std::size_t at_border = 0;
+    for (std::size_t v = 0; v + 1 < grid.size(); ++v) {
+        const Point &p = grid.vertices_mm[v], &q = grid.vertices_mm[v + 1];
+        if (!grid.inside(v) || !grid.inside(v + 1) || q.x() < p.x() || p.y() > -5 || p.y() < -35) continue;
+        if (std::abs(std::abs(p.x()) - 47) > 3) continue;
+        ++at_border;
+        // The mean of those measured steps by 2 mm here. Left is what sampling rounds (0.1 mm) and the pull towards
+        // that mean: 2 mm over 30 cells.
+        EXPECT_NEAR(q.z() - p.z(), closed_form_mm(q) - closed_form_mm(p), 0.3) << p.transpose();
+    }
+    EXPECT_GT(at_border, 100U);
 }
 
 TEST(AverageFace, has_one_outline_for_both_sides) {

@@ -11,6 +11,8 @@
 #include "database/hidden_subjects.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/image.h"
+#include "geometry/mesh_io.h"
 #include "geometry/parallel.h"
 #include "geometry/surface_index.h"
 #include "tests/database/temporary_folder.h"
@@ -142,6 +144,35 @@ TEST_F(WorkspaceTest, what_a_manifest_says_of_a_scan_belongs_to_what_its_face_wa
         EXPECT_EQ(report.up_to_date, 5U);
         (void)preprocess();
     }
+}
+
+TEST_F(WorkspaceTest, an_image_that_only_the_scan_file_names_counts_from_the_run_after_it_came) {
+    auto database = database::open_database(database_);
+    const auto image = database_ / "bs001" / "skin.png";
+    for (auto& entry : database.scans) {
+        if (entry.id.subject != "bs001") continue;
+        geometry::Mesh mesh;
+        for (const auto& p : database::load(entry).scan.points_mm)
+            if (p.allFinite()) mesh.vertices_mm.push_back(p);
+        mesh.texture_coordinates.assign(mesh.vertices_mm.size(), {0.5, 0.5});
+        entry.scan_file.replace_extension(".ply");
+        geometry::write_mesh(entry.scan_file, mesh, {.texture_file = "skin.png"});
+    }
+    const auto run = [&] { return preprocess_database(database, workspace_, quick()); };
+    const auto texture_of = [&](const char* name) {
+        return Workspace(workspace_).face(*database::parse_scan_name(name)).texture_file;
+    };
+    EXPECT_EQ(run().preprocessed, 6U);
+    EXPECT_EQ(run().up_to_date, 6U);
+    EXPECT_EQ(texture_of("bs001_LFAU_12_0"), "");
+    geometry::write_png(image, {2, 2, std::vector<std::uint8_t>(12, 99)});
+    EXPECT_EQ(run().preprocessed, 2U);  // neutral and smile
+    EXPECT_EQ(texture_of("bs001_N_N_0"), image);
+    EXPECT_EQ(texture_of("bs001_LFAU_12_0"), image);
+    EXPECT_EQ(run().up_to_date, 6U);
+    fs::remove(image);
+    EXPECT_EQ(run().preprocessed, 2U);
+    EXPECT_EQ(texture_of("bs001_LFAU_12_0"), "");
 }
 
 TEST_F(WorkspaceTest, a_database_is_never_written_into_but_a_folder_of_its_own_beside_the_subjects_will_do) {

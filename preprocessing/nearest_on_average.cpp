@@ -1,0 +1,32 @@
+#include "preprocessing/nearest_on_average.h"
+
+#include <limits>
+
+#include "geometry/point_index.h"
+#include "preprocessing/control_pairs.h"
+
+namespace mimik::preprocessing {
+
+using geometry::Point;
+
+std::vector<NearestOnAverage> nearest_on_average(const Face& face, const AverageFace& average) {
+    std::vector<Point> known;
+    std::vector<std::size_t> place;
+    for (std::size_t v = 0; v < average.grid.size(); ++v)
+        if (average.grid.inside(v)) {
+            known.push_back(average.grid.vertices_mm[v]);
+            place.push_back(v);
+        }
+    std::vector<Point> vertices;
+    for (std::size_t v = 0; v < face.grid.size(); ++v)
+        vertices.push_back(face.grid.inside(v) ? face.grid.vertices_mm[v] : Point(Point::Zero()));
+    landmark_spline(face.landmarks, average.landmarks).apply(vertices, vertices);
+    const auto nearest = geometry::PointIndex(known).nearest(vertices);
+    std::vector<NearestOnAverage> found;
+    for (std::size_t v = 0; v < nearest.size(); ++v)
+        found.push_back({place[nearest[v].index],
+                         face.grid.inside(v) ? nearest[v].distance_mm : std::numeric_limits<double>::infinity()});
+    return found;
+}
+
+}  // namespace mimik::preprocessing
