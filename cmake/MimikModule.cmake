@@ -11,7 +11,8 @@ add_library(mimik_warnings INTERFACE)
 target_compile_options(mimik_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${MIMIK_WERROR}>:-Werror>)
 if(MIMIK_SANITIZE)
-  add_compile_options(-fsanitize=${MIMIK_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_compile_options(-fsanitize=${MIMIK_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+    $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitizers.ignore>)
   add_link_options(-fsanitize=${MIMIK_SANITIZE})
 endif()
 
@@ -21,6 +22,16 @@ target_link_libraries(mimik_caller INTERFACE mimik_warnings)
 if(MIMIK_SANITIZE)
   target_compile_options(mimik_caller INTERFACE -O0)
 endif()
+# mimik_take_optimised(test_modeling geometry modeling): of a template that both a caller and these layers
+# instantiate, the linker takes the first that it meets; let that be the optimised one.
+function(mimik_take_optimised target)
+  if(MIMIK_SANITIZE)
+    list(REMOVE_DUPLICATES ARGN)
+    list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_FILE:mimik_\\1>" OUTPUT_VARIABLE archives)
+    list(JOIN archives " " archives)
+    target_link_options(${target} BEFORE PRIVATE "SHELL:-Wl,--whole-archive ${archives} -Wl,--no-whole-archive")
+  endif()
+endfunction()
 
 function(mimik_add_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
