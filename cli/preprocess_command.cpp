@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "database/scan_database.h"
 #include "geometry/errors.h"
 #include "modeling/control_points.h"
+#include "modeling/facs_catalogue.h"
 #include "preprocessing/quality_sheet.h"
 #include "preprocessing/workspace.h"
 
@@ -20,7 +22,7 @@ namespace {
 
 struct Arguments {
     Common common;
-    std::string database, output;
+    std::string database, output, catalogue_file;
     bool dry_run = false, sheets = false;
     preprocessing::PreprocessOptions options;
 };
@@ -45,6 +47,16 @@ preprocessing::QualitySheetReport draw_sheets(const Arguments& arguments) {
     Progress progress(arguments.common, "sheets", static_cast<std::size_t>(shown));
     return preprocessing::draw_quality_sheets(workspace, draw_figure,
                                               [&](const std::string& subject) { progress.advance(subject); });
+}
+
+/// One line for what several scans have in common.
+void print_remarks(const preprocessing::PreprocessReport& report, const std::vector<std::string>& of_database) {
+    for (const auto& remark : of_database) std::cerr << remark << '\n';
+    std::map<std::string, std::vector<std::string>> scans;
+    for (const auto& [scan, remark] : report.remarks) scans[remark].push_back(scan);
+    for (const auto& [remark, of] : scans)
+        std::cerr << fmt::format("note: {}{}: {}\n", of.front(),
+                                 of.size() > 1 ? fmt::format(" and {} more", of.size() - 1) : "", remark);
 }
 
 int run(Arguments& arguments) {
@@ -79,10 +91,13 @@ int run(Arguments& arguments) {
     }
     // Which part of a face an expression leaves alone is the catalogue's knowledge; codes it lacks get the general
     // answer.
-    const auto stable_region = [](const database::ScanId& scan, const preprocessing::Face& neutral) {
+    const auto catalogue = arguments.catalogue_file.empty() ? modeling::builtin_catalogue()
+                                                            : modeling::read_catalogue(arguments.catalogue_file);
+    arguments.options.stable_region_name = catalogue.content_hash();
+    const auto stable_region = [&](const database::ScanId& scan, const preprocessing::Face& neutral) {
         if (scan.neutral()) return preprocessing::stable_on_every_face(neutral);
         try {
-            return modeling::stable_vertices(modeling::builtin_catalogue(), scan.code, neutral);
+            return modeling::stable_vertices(catalogue, scan.code, neutral);
         } catch (const InputError&) {
             return preprocessing::stable_on_every_face(neutral);
         }
@@ -99,14 +114,22 @@ int run(Arguments& arguments) {
         auto failures = nlohmann::json::array();
         for (const auto& failure : report.failures)
             failures.push_back({{"scan", failure.scan}, {"reason", failure.reason}});
-        nlohmann::json document = {
-            {"schema", 1},          {"preprocessed", report.preprocessed},  {"up_to_date", report.up_to_date},
-            {"failures", failures}, {"subjects_left_out", report.left_out}, {"workspace", arguments.output}};
+        auto remarks = nlohmann::json::array();
+        for (const auto& remark : database.remarks) remarks.push_back({{"remark", remark}});
+        for (const auto& [scan, remark] : report.remarks) remarks.push_back({{"scan", scan}, {"remark", remark}});
+        nlohmann::json document = {{"remarks", remarks},
+                                   {"schema", 1},
+                                   {"preprocessed", report.preprocessed},
+                                   {"up_to_date", report.up_to_date},
+                                   {"failures", failures},
+                                   {"subjects_left_out", report.left_out},
+                                   {"workspace", arguments.output}};
         if (arguments.sheets)
             document["sheets"] = {
                 {"drawn", sheets.drawn}, {"up_to_date", sheets.up_to_date}, {"failures", sheets.failures}};
         std::cout << document.dump(1) << '\n';
     } else {
+        if (!arguments.common.quiet) print_remarks(report, database.remarks);
         for (const auto& failure : report.failures) std::cerr << fmt::format("{}: {}\n", failure.scan, failure.reason);
         for (const auto& subject : report.left_out)
             std::cerr << fmt::format("{}: no usable neutral face, so the subject was left out\n", subject);
@@ -148,6 +171,10 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--trim", options.alignment.trim, "Share of the points that the alignment uses")
         ->capture_default_str();
+    command
+        ->add_option("--catalogue", arguments->catalogue_file,
+                     "Another FACS catalogue (TOML): what each AU leaves alone is what scans are aligned by")
+        ->check(CLI::ExistingFile);
     command->add_flag("--sheets", arguments->sheets, "Draw a quality sheet per subject: OUTPUT/sheets/bs003.png");
     command->add_flag("--dry-run", arguments->dry_run, "Say time and disk, do nothing");
     add_common_options(*command, arguments->common);

@@ -378,6 +378,9 @@ void write_average_face(const std::filesystem::path& stem, const AverageFace& av
     auto mesh_file = stem, json_file = stem;
     mesh_file += ".ply";
     json_file += ".json";
+    // The .json says that both are whole: a run that ends in between must not leave that of another surface.
+    std::error_code ignored;
+    std::filesystem::remove(json_file, ignored);
     write_grid(mesh_file, average.grid);
     const nlohmann::json document = {
         {"schema", 1},

@@ -1,6 +1,7 @@
 #include "preprocessing/cleaning.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -56,15 +57,58 @@ Neighbours lattice_neighbours(const RangeScan& scan, int radius) {
     return neighbours;
 }
 
-Neighbours cloud_neighbours(const RangeScan& scan) {
+/// Of points at exactly the same place (a texture's seam, or what a camera writes for nothing) the first stands for
+/// all.
+std::vector<std::uint32_t> first_of_place(const RangeScan& scan) {
+    const auto& p = scan.points_mm;
+    std::vector<std::uint32_t> order, first(p.size());
+    std::iota(first.begin(), first.end(), 0U);
+    for (std::uint32_t i = 0; i < p.size(); ++i)
+        if (scan.valid(i)) order.push_back(i);
+    const auto place = [&](std::uint32_t i) { return std::array{p[i].x(), p[i].y(), p[i].z()}; };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const auto pa = place(a), pb = place(b);
+        return pa != pb ? pa < pb : a < b;
+    });
+    for (std::size_t k = 1; k < order.size(); ++k)
+        if (place(order[k]) == place(order[k - 1])) first[order[k]] = first[order[k - 1]];
+    return first;
+}
+
+/// Along the edges of the faces, welded at seams: no spacing is assumed.
+Neighbours mesh_neighbours(const RangeScan& scan, const std::vector<std::uint32_t>& first) {
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (std::size_t f = 0; f < scan.faces.size(); ++f) {
+        const auto face = scan.faces[f];
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const auto a = first[face[k]], b = first[face[(k + 1) % face.size()]];
+            if (a == b || !scan.valid(a) || !scan.valid(b)) continue;
+            pairs.push_back({a, b});
+            pairs.push_back({b, a});
+        }
+    }
+    for (std::uint32_t i = 0; i < first.size(); ++i)
+        if (first[i] != i) pairs.push_back({i, first[i]});
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    Neighbours neighbours;
+    neighbours.first.assign(first.size() + 1, 0);
+    for (const auto& [from, to] : pairs) {
+        ++neighbours.first[from + 1];
+        neighbours.index.push_back(to);
+    }
+    std::partial_sum(neighbours.first.begin(), neighbours.first.end(), neighbours.first.begin());
+    return neighbours;
+}
+
+Neighbours cloud_neighbours(const RangeScan& scan, const std::vector<std::uint32_t>& first) {
     std::vector<Point> valid;
     std::vector<std::uint32_t> place;
-    for (std::size_t i = 0; i < scan.points_mm.size(); ++i)
-        if (scan.valid(i)) {
+    for (std::uint32_t i = 0; i < scan.points_mm.size(); ++i)
+        if (scan.valid(i) && first[i] == i) {
             valid.push_back(scan.points_mm[i]);
-            place.push_back(static_cast<std::uint32_t>(i));
+            place.push_back(i);
         }
-    if (valid.empty()) throw InputError("the scan holds no measured point");
     const geometry::PointIndex index(valid);
     std::vector<double> spacing;
     for (std::size_t i = 0; i < valid.size(); i += std::max<std::size_t>(1, valid.size() / 1000)) {
@@ -77,15 +121,18 @@ Neighbours cloud_neighbours(const RangeScan& scan) {
                          spacing.end());
         radius_mm = std::max(1e-9, 3.0 * spacing[spacing.size() / 2]);
     }
+    // As many as a lattice's two rings at most: a crowded place must not list everything around it.
+    constexpr std::size_t most = 24;
     Neighbours neighbours;
-    neighbours.first.assign(scan.points_mm.size() + 1, 0);
+    neighbours.first.assign(first.size() + 1, 0);
     std::size_t k = 0;
-    for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
         if (k < place.size() && place[k] == i) {
-            for (const auto& n : index.within(valid[k], radius_mm))
-                if (n.index != k) neighbours.index.push_back(place[n.index]);
+            for (const auto& n : index.nearest(valid[k], most + 1))
+                if (n.index != k && n.distance_mm <= radius_mm) neighbours.index.push_back(place[n.index]);
             ++k;
-        }
+        } else if (first[i] != i)
+            neighbours.index.push_back(first[i]);
         neighbours.first[i + 1] = neighbours.index.size();
     }
     return neighbours;
@@ -108,11 +155,19 @@ std::vector<char> find_spikes(const RangeScan& scan, const Neighbours& neighbour
         // Most points lie within the depths around them, give or take: the median is needed for the few others only.
         const double z = depth_of[i];
         if (z <= lowest + spike_mm && z >= highest - spike_mm) continue;
+        // Where a mesh is coarse a steep surface falls by more from vertex to vertex.
+        double limit_mm = spike_mm;
+        if (!scan.faces.corners.empty()) {
+            double apart_mm = 0;
+            for (auto other = first; other != last; ++other)
+                apart_mm += (scan.points_mm[*other] - scan.points_mm[i]).head<2>().norm();
+            limit_mm = std::max(limit_mm, 2.0 * apart_mm / static_cast<double>(last - first));
+        }
         depths.clear();
         std::transform(first, last, std::back_inserter(depths), [&](std::uint32_t other) { return depth_of[other]; });
         const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
         std::nth_element(depths.begin(), middle, depths.end());
-        spike[i] = std::abs(z - *middle) > spike_mm ? 1 : 0;
+        spike[i] = std::abs(z - *middle) > limit_mm ? 1 : 0;
     }
     return spike;
 }
@@ -131,7 +186,13 @@ RangeScan clean(const RangeScan& scan, const CleaningOptions& options, CleaningR
     for (std::size_t i = 0; i < n; ++i) counts.points += scan.valid(i) ? 1 : 0;
     if (counts.points == 0) throw InputError("the scan holds no measured point");
 
-    const Neighbours neighbours = scan.organised() ? lattice_neighbours(scan, 2) : cloud_neighbours(scan);
+    const bool has_faces = !scan.organised() && scan.faces.size() > 0;
+    std::vector<std::uint32_t> first(n);
+    std::iota(first.begin(), first.end(), 0U);
+    if (!scan.organised()) first = first_of_place(scan);
+    const Neighbours neighbours = scan.organised() ? lattice_neighbours(scan, 2)
+                                  : has_faces      ? mesh_neighbours(scan, first)
+                                                   : cloud_neighbours(scan, first);
     std::vector<char> dropped = find_spikes(scan, neighbours, options.spike_mm);
     counts.spikes = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), 1));
 
@@ -142,8 +203,11 @@ RangeScan clean(const RangeScan& scan, const CleaningOptions& options, CleaningR
         if (dropped[i] || !scan.valid(i)) continue;
         for (std::size_t k = neighbours.first[i]; k < neighbours.first[i + 1]; ++k) {
             const auto other = neighbours.index[k];
-            if (other > i || dropped[other] || parent[other] == parent[i]) continue;
-            if ((scan.points_mm[i] - scan.points_mm[other]).squaredNorm() > options.max_jump_mm * options.max_jump_mm)
+            // A lattice's neighbours are each other's; the nearest of a cloud need not be.
+            if ((scan.organised() && other > i) || dropped[other] || parent[other] == parent[i]) continue;
+            // What the faces of a mesh join hangs together, however coarse they are.
+            if (!has_faces &&
+                (scan.points_mm[i] - scan.points_mm[other]).squaredNorm() > options.max_jump_mm * options.max_jump_mm)
                 continue;
             const auto a = root(parent, static_cast<std::uint32_t>(i)), b = root(parent, other);
             if (a != b) parent[std::max(a, b)] = std::min(a, b);
@@ -152,7 +216,7 @@ RangeScan clean(const RangeScan& scan, const CleaningOptions& options, CleaningR
     std::vector<std::size_t> size(n, 0);
     std::vector<double> depth_sum(n, 0.0);
     for (std::size_t i = 0; i < n; ++i)
-        if (!dropped[i] && scan.valid(i)) {
+        if (!dropped[i] && scan.valid(i) && first[i] == i) {  // a place counts once
             const auto part = root(parent, static_cast<std::uint32_t>(i));
             ++size[part];
             depth_sum[part] += scan.points_mm[i].z();

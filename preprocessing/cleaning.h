@@ -7,10 +7,11 @@
 namespace mimik::preprocessing {
 
 struct CleaningOptions {
-    double spike_mm = 4.0;     ///< a point this far (in z) from the median of its neighbours is a spike; the steepest
-                               ///< surface that a scanner of 0.8 mm spacing still sees changes by less per point
-    double max_jump_mm = 6.0;  ///< neighbours farther apart than this belong to different parts
-    double min_part = 0.05;    ///< parts smaller than this share of the largest are stray (hair tufts, collar)
+    double spike_mm = 4.0;  ///< a point this far (in z) from the median of its neighbours is a spike; the steepest
+                            ///< surface that a scanner of 0.8 mm spacing still sees changes by less per point
+    double max_jump_mm =
+        6.0;                 ///< neighbours farther apart than this belong to different parts, unless a face joins them
+    double min_part = 0.05;  ///< parts smaller than this share of the largest are stray (hair tufts, collar)
     void check() const;
 };
 
@@ -23,9 +24,11 @@ struct CleaningReport {
 };
 
 /// Leaves out spikes and parts that do not hang together with the face. In an organised scan the points left out become
-/// NaN; a cloud or mesh loses them (and the faces that used them). Neighbours are the lattice's 24 (two rings), or for
-/// a cloud the points within three times its median spacing. Of the parts, the largest and those of at least `min_part`
-/// of it stay, but a part that lies wholly behind the largest by more than 150 mm is background whatever its size.
+/// NaN; a cloud or mesh loses them (and the faces that used them). Neighbours are the lattice's 24 (two rings), for a
+/// mesh the ends of its edges (whatever their length; a spike is then also farther off than twice their mean), for a
+/// cloud the 24 nearest points within three times its median spacing. Points at exactly the same place count once. Of
+/// the parts, the largest and those of at least `min_part` of it stay, but a part that lies wholly behind the largest
+/// by more than 150 mm is background whatever its size.
 /// @throws InputError if nothing is left.
 [[nodiscard]] geometry::RangeScan clean(const geometry::RangeScan& scan, const CleaningOptions& options = {},
                                         CleaningReport* report = nullptr);

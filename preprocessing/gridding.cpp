@@ -261,6 +261,72 @@ Lattice split_cells(const RangeScan& scan, const std::vector<std::uint8_t>& vali
     return lattice;
 }
 
+/// The faces of a mesh as triangles that face the camera, and the rims of what they cover.
+struct FacingMesh {
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> rim;
+};
+
+FacingMesh facing_triangles(const RangeScan& scan, const std::vector<std::uint8_t>& valid) {
+    const auto& p = scan.points_mm;
+    FacingMesh mesh;
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    for (auto t : geometry::triangulate(scan.faces)) {
+        if (!valid[t[0]] || !valid[t[1]] || !valid[t[2]]) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto a = t[k], b = t[(k + 1) % 3];
+            edges.push_back({std::min(a, b), std::max(a, b)});
+        }
+        const double area2 = cross(p[t[0]], p[t[1]], p[t[2]]);
+        if (!(std::abs(area2) > 1e-12)) continue;  // edge-on: no height over x and y
+        if (area2 < 0) std::swap(t[1], t[2]);
+        mesh.triangles.push_back(t);
+    }
+    // An edge of one face only is a border.
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::uint8_t> at_rim(p.size(), 0);
+    for (std::size_t k = 0, end = 0; k < edges.size(); k = end) {
+        for (end = k; end < edges.size() && edges[end] == edges[k]; ++end) {
+        }
+        if (end - k == 1) at_rim[edges[k][0]] = at_rim[edges[k][1]] = 1;
+    }
+    for (std::uint32_t v = 0; v < p.size(); ++v)
+        if (at_rim[v]) mesh.rim.push_back(v);
+    return mesh;
+}
+
+/// Of `rim`, the points that no part of the drawn surface hides.
+std::vector<std::uint32_t> in_sight(const std::vector<std::uint32_t>& rim, std::span<const Point> points_mm,
+                                    const QuadGrid& grid) {
+    constexpr double in_front_mm = 5.0;  // more than a steep cheek rises from one grid line to the next
+    const Point low = grid.vertices_mm.front(), high = grid.vertices_mm.back();
+    std::vector<std::uint32_t> seen;
+    for (const auto v : rim) {
+        const Point& p = points_mm[v];
+        const auto row = std::lround((p.y() - low.y()) / (high.y() - low.y()) * (grid.rows - 1));
+        const auto col = std::lround((p.x() - low.x()) / (high.x() - low.x()) * (grid.cols - 1));
+        const auto cell = grid.index(static_cast<int>(row), static_cast<int>(col));
+        if (!grid.inside(cell) || grid.vertices_mm[cell].z() < p.z() + in_front_mm) seen.push_back(v);
+    }
+    return seen;
+}
+
+/// Share of the triangles between close points whose corners lie far behind one another: hardly any on a surface that a
+/// scanner saw, most of them where the back of a head shows through.
+double share_seen_through(const Samples& samples, const std::vector<Triangle>& triangles, double max_edge_mm) {
+    constexpr double behind_mm = 20.0, steepest = 6.0;  // scanners lose surfaces that rise by more than about 5
+    std::size_t close = 0, through = 0;
+    for (const auto& t : triangles) {
+        const double squared = longest_squared(samples, t);
+        if (squared > max_edge_mm * max_edge_mm) continue;
+        ++close;
+        const auto& p = samples.points_mm;
+        const auto [low, high] = std::minmax({p[t[0]].z(), p[t[1]].z(), p[t[2]].z()});
+        if (high - low > std::max(behind_mm, steepest * std::sqrt(squared))) ++through;
+    }
+    return close == 0 ? 0.0 : static_cast<double>(through) / static_cast<double>(close);
+}
+
 /// The valid points, and where several share x and y their mean at the lowest of them: the one that delaunay() names.
 struct Merged {
     std::vector<Point> points_mm;
@@ -381,6 +447,17 @@ QuadGrid grid_scan(const RangeScan& scan, const GriddingOptions& options, Griddi
         }
         for (const auto t : long_ones) raster.draw(triangles[t], VertexOrigin::bridged, false);
     };
+    const auto fill_rims = [&](Raster& raster, const Samples& samples, const std::vector<std::uint32_t>& rim,
+                               double max_edge_mm) {
+        std::vector<Planar> points;
+        points.reserve(rim.size());
+        for (const auto v : rim) points.emplace_back(p[v].x(), p[v].y());
+        if (points.size() < 3) return;  // a closed surface
+        auto between = geometry::delaunay(points);
+        for (auto& t : between)
+            for (auto& v : t) v = rim[v];
+        draw_all(raster, samples, between, max_edge_mm);
+    };
     if (options.use_lattice && scan.organised()) {
         made.method = GriddingMethod::lattice;
         const double max_edge_mm = bound(lattice_spacing(scan, valid));
@@ -390,13 +467,16 @@ QuadGrid grid_scan(const RangeScan& scan, const GriddingOptions& options, Griddi
         const Samples samples{p, scan.texture_coordinates};
         Raster raster(grid, samples, x, y);
         for (const auto& t : lattice.triangles) raster.draw(t, VertexOrigin::measured, true);
-        std::vector<Planar> rim;
-        rim.reserve(lattice.rim.size());
-        for (const auto v : lattice.rim) rim.emplace_back(p[v].x(), p[v].y());
-        auto between = geometry::delaunay(rim);
-        for (auto& t : between)
-            for (auto& v : t) v = lattice.rim[v];
-        draw_all(raster, samples, between, max_edge_mm);
+        fill_rims(raster, samples, lattice.rim, max_edge_mm);
+    } else if (options.use_lattice && scan.faces.size() > 0) {
+        made.method = GriddingMethod::mesh;
+        const auto mesh = facing_triangles(scan, valid);
+        const Samples samples{p, scan.texture_coordinates};
+        Raster raster(grid, samples, x, y);
+        for (const auto& t : mesh.triangles) raster.draw(t, VertexOrigin::measured, true);
+        const auto rim = in_sight(mesh.rim, p, grid);
+        made.rim_points = rim.size();
+        fill_rims(raster, samples, rim, bound(triangle_spacing(samples, mesh.triangles)));
     } else {
         auto merged = gather(scan, valid, made.points);
         const auto all = geometry::delaunay(planar(merged.points_mm));
@@ -404,7 +484,9 @@ QuadGrid grid_scan(const RangeScan& scan, const GriddingOptions& options, Griddi
         made.duplicates = merged.duplicates;
         const Samples samples{merged.points_mm, merged.texture};
         Raster raster(grid, samples, x, y);
-        draw_all(raster, samples, all, bound(triangle_spacing(samples, all)));
+        const double max_edge_mm = bound(triangle_spacing(samples, all));
+        made.seen_through = share_seen_through(samples, all, max_edge_mm);
+        draw_all(raster, samples, all, max_edge_mm);
     }
     for (const auto origin : grid.origin) {
         made.measured += origin == VertexOrigin::measured ? 1 : 0;

@@ -25,6 +25,7 @@ struct GriddingOptions {
 
 enum class GriddingMethod {
     lattice,  ///< the scanner's cells, and a Delaunay triangulation of the rims alone
+    mesh,     ///< the faces of a mesh, and a Delaunay triangulation of their visible rims alone
     delaunay  ///< a Delaunay triangulation of every point
 };
 
@@ -37,7 +38,8 @@ struct GriddingReport {
     std::size_t outside = 0;           ///< vertices outside the hull: z is NaN
     std::size_t duplicates = 0;        ///< points that share x and y with another; z was averaged (delaunay only)
     std::size_t folded_triangles = 0;  ///< lattice triangles seen from behind; left out (lattice only)
-    std::size_t rim_points = 0;        ///< points on outer borders and rims of holes (lattice only)
+    std::size_t rim_points = 0;        ///< points on outer borders and rims of holes (not delaunay)
+    double seen_through = 0.0;         ///< share of the triangles that join front and back (delaunay only)
     double spacing_mm = 0.0;           ///< median distance of neighbours in x-y
     double max_edge_mm = 0.0;          ///< the bound that was used
 };
@@ -52,8 +54,12 @@ struct GriddingReport {
 /// fills what the cells leave open - holes, concavities, lost points - from the Delaunay triangulation of the points on
 /// their rims. Cells that a tilted pose folds over (seen from behind) are left out, and where sheets still overlap the
 /// one nearest to the camera (highest z) counts.
-/// @throws InputError for bad options or a scan with fewer than three valid points; NumericalError if all lie on a
-/// line.
+/// `mesh` draws the faces that a scan without a lattice has, whatever their winding, and the one nearest to the camera
+/// counts: the back of a head, ears and inner lips stay hidden. Rims are filled as above.
+/// A cloud has neither: points that lie behind one another cannot be told from a surface, and where more than a tenth
+/// of the triangles say so the scan is refused.
+/// @throws InputError for bad options, a scan with fewer than three valid points;
+/// NumericalError if all lie on a line.
 [[nodiscard]] geometry::QuadGrid grid_scan(const geometry::RangeScan& scan, const GriddingOptions& options = {},
                                            GriddingReport* report = nullptr);
 

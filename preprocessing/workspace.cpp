@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "database/hidden_subjects.h"
+#include "geometry/content_hash.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/json_values.h"
@@ -137,9 +138,12 @@ std::optional<Face> read_finished(const fs::path& stem, const std::string& finge
     }
 }
 
-/// Nothing can be done with a scan without landmarks: found out before it is gridded.
+/// Nothing can be done with a scan without landmarks, or with some on the other side: found out before it is gridded.
 database::LoadedScan load_marked(const ScanEntry& entry) {
     auto loaded = database::load(entry);
+    if (const auto& swapped = loaded.checks.sides.swapped_pairs; !swapped.empty())
+        throw InputError(fmt::format("{}: left and right of {} are exchanged against the rest; exchange the labels",
+                                     entry.landmarks_file.string(), fmt::join(swapped, ", ")));
     if (!loaded.landmarks.all().empty()) return loaded;
     if (!entry.landmarks_file.empty())
         throw InputError(fmt::format("{}: there is no landmark in it; mark the face", entry.landmarks_file.string()));
@@ -181,7 +185,20 @@ Face preprocess_scan(const database::LoadedScan& loaded, const PreprocessOptions
     face.texture_file = loaded.entry.texture_file;
     face.landmarks = loaded.landmarks;
     face.remarks = loaded.remarks;
-    face.grid = grid_scan(clean(loaded.scan, options.cleaning, cleaning), options.gridding, gridding);
+    CleaningReport cleaned;
+    GriddingReport gridded;
+    face.grid = grid_scan(clean(loaded.scan, options.cleaning, &cleaned), options.gridding, &gridded);
+    if (gridded.seen_through > 0.1)
+        throw InputError(fmt::format(
+            "{}: of {:.0f} % of the surface front and back lie behind one another, and a cloud does not say "
+            "which is which; give the mesh with its faces, or cut off the back",
+            loaded.entry.scan_file.string(), 100 * gridded.seen_through));
+    if (const auto lost = cleaned.spikes + cleaned.stray_points; 20 * lost > cleaned.points)
+        face.remarks.push_back(
+            fmt::format("cleaning left out {} of {} points: {} spikes, and {} stray points in {} parts", lost,
+                        cleaned.points, cleaned.spikes, cleaned.stray_points, cleaned.stray_parts));
+    if (cleaning) *cleaning = cleaned;
+    if (gridding) *gridding = gridded;
 
     std::vector<Point> inside;
     for (std::size_t v = 0; v < face.grid.size(); ++v)
@@ -270,12 +287,16 @@ private:
         bool fresh = false;                   ///< its neutral was gridded in this run
         std::set<const ScanEntry*> reported;  ///< neutrals that failed in the first pass
         std::vector<ScanFailure> failures;    ///< written by the one thread that has this subject
+        std::vector<ScanRemark> remarks;
         std::vector<ScanId> finished;
         std::size_t preprocessed = 0, up_to_date = 0;
     };
 
     static void fail(Subject& subject, const ScanEntry& entry, const std::string& reason) {
         subject.failures.push_back({entry.id.name(), reason});
+    }
+    static void remark(Subject& subject, const Face& face) {
+        for (const auto& text : face.remarks) subject.remarks.push_back({face.id.name(), text});
     }
     void done(const ScanEntry& entry) const {
         if (progress_) progress_(entry.id.name());
@@ -327,6 +348,7 @@ private:
                     (void)affine_normalisation(face->snapped_landmarks, face->snapped_landmarks);
                     begin_writing();
                     write_finished(stem, *face, neutral_fingerprint(*entry), loaded.files_looked_for);
+                    remark(subject, *face);
                     subject.fresh = true;
                 }
                 subject.neutral_landmarks = face->landmarks;
@@ -343,7 +365,8 @@ private:
     void prepare_average() {
         std::vector<geometry::Landmarks> sets;
         std::vector<const ScanEntry*> neutrals;
-        average_fingerprint_ = describe(options_) + " " + describe(options_.average);
+        geometry::ContentHash made_from;  // its length must not grow with the subjects: every mark repeats it
+        made_from.add(describe(options_) + " " + describe(options_.average));
         std::string first_reason = "no neutral scan";
         for (const auto& subject : subjects_) {
             if (!subject.neutral) {
@@ -353,8 +376,9 @@ private:
             }
             neutrals.push_back(subject.neutral);
             sets.push_back(subject.neutral_landmarks);
-            average_fingerprint_ += " " + subject.neutral->id.name() + " " + stamp(*subject.neutral);
+            made_from.add(" " + subject.neutral->id.name() + " " + stamp(*subject.neutral));
         }
+        average_fingerprint_ = made_from.text();
         if (neutrals.size() < 2)
             throw InputError(fmt::format(
                 "{}: {} of {} selected subjects have a usable neutral face, and the average face needs two{}",
@@ -431,7 +455,8 @@ private:
 
     void tie_scan(Subject& subject, const Face& neutral, const ScanEntry& entry) {
         const auto stem = face_stem(root_, entry.id);
-        const auto fingerprint = describe(options_) + " scan " + stamp(entry) + " " + average_fingerprint_;
+        const auto fingerprint = fmt::format("{} scan {} average {} stable region {}", describe(options_), stamp(entry),
+                                             average_fingerprint_, options_.stable_region_name);
         if (finished(stem, fingerprint)) {
             ++subject.up_to_date;
             return;
@@ -444,12 +469,13 @@ private:
         face.average_from_scan = neutral.average_from_scan * face.neutral_from_scan;
         try {
             face.average_from_scan_affine = affine_normalisation(face.snapped_landmarks, average_.landmarks);
-        } catch (const InputError& e) {  // a chin that dropped out of the scanner's sight, say
+        } catch (const std::exception& e) {  // a chin that dropped out of the scanner's sight, or four marks in a plane
             face.average_from_scan_affine = neutral.average_from_scan_affine * face.neutral_from_scan;
             face.remarks.push_back(fmt::format("Eqs 5.1-5.4: {}; those of the neutral were taken", e.what()));
         }
         begin_writing();
         write_finished(stem, face, fingerprint, loaded.files_looked_for);
+        remark(subject, face);
         ++subject.preprocessed;
     }
 
@@ -460,6 +486,7 @@ private:
             report.preprocessed += subject.preprocessed;
             report.up_to_date += subject.up_to_date;
             report.failures.insert(report.failures.end(), subject.failures.begin(), subject.failures.end());
+            report.remarks.insert(report.remarks.end(), subject.remarks.begin(), subject.remarks.end());
             ids.insert(ids.end(), subject.finished.begin(), subject.finished.end());
             if (!subject.neutral) report.left_out.push_back(subject.scans.front()->id.subject);
         }

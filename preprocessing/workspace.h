@@ -26,6 +26,8 @@ struct PreprocessOptions {
     GriddingOptions gridding;
     AverageFaceOptions average;
     RigidAlignmentOptions alignment;
+    std::string stable_region_name;  ///< what the StableRegion rests on, e.g. a catalogue's hash: with another, scans
+                                     ///< are aligned anew
     std::vector<std::string> subjects;  ///< empty: all; case ignored
     std::vector<std::string> codes;     ///< expressions to take beside the neutrals, e.g. "12", "AU12", "HAPPY"; empty:
                                         ///< all but head rotations and occlusions (groups YR, PR, CR, O, IGN)
@@ -46,10 +48,16 @@ struct ScanFailure {
     std::string reason;
 };
 
+struct ScanRemark {
+    std::string scan;
+    std::string remark;
+};
+
 struct PreprocessReport {
     std::size_t preprocessed = 0;       ///< written in this run
     std::size_t up_to_date = 0;         ///< found finished from an earlier run
     std::vector<ScanFailure> failures;  ///< by subject
+    std::vector<ScanRemark> remarks;    ///< of the faces written in this run
     std::vector<std::string> left_out;  ///< subjects without a usable neutral
 };
 

@@ -9,6 +9,7 @@
 
 #include "geometry/delaunay.h"
 #include "geometry/errors.h"
+#include "tests/support/analytic_face.h"
 
 namespace mimik::preprocessing {
 namespace {
@@ -245,6 +246,59 @@ TEST(Gridding, where_the_lattice_folds_over_the_nearest_sheet_counts) {
         const auto& p = grid.vertices_mm[v];
         EXPECT_NEAR(p.z(), p.x() <= 2.4 ? 10.0 : 0.0, 1e-12) << p.x();
     }
+}
+
+/// The face in closed form, and behind it the back of the head, joined as one mesh; some files wind it the other way.
+RangeScan head(bool turned) {
+    using Face = test::AnalyticFace;
+    const auto front = Face{}.mesh(Face::lines(-60, 60, 2), Face::lines(-60, 60, 2));
+    RangeScan head = front;
+    const auto count = static_cast<std::uint32_t>(front.points_mm.size());
+    for (const auto& p : front.points_mm) head.points_mm.emplace_back(p.x() + 0.3, p.y() + 0.4, -150 - p.z());
+    for (std::size_t f = 0; f < front.faces.size(); ++f) {
+        std::vector<std::uint32_t> back;
+        for (const auto v : front.faces[f]) back.push_back(v + count);
+        head.faces.add(back);
+    }
+    if (!turned) return head;
+    geometry::Faces faces;
+    for (std::size_t f = 0; f < head.faces.size(); ++f) {
+        std::vector<std::uint32_t> corners(head.faces[f].rbegin(), head.faces[f].rend());
+        faces.add(corners);
+    }
+    head.faces = faces;
+    return head;
+}
+
+TEST(Gridding, of_a_head_with_a_back_the_face_is_seen_whatever_the_winding) {
+    for (const bool turned : {false, true}) {
+        const auto scan = head(turned);
+        GriddingReport report;
+        const auto grid = grid_scan(scan, {}, &report);
+        EXPECT_EQ(report.method, GriddingMethod::mesh);
+        std::size_t compared = 0;
+        for (std::size_t v = 0; v < grid.size(); ++v) {
+            const auto& p = grid.vertices_mm[v];
+            if (std::abs(p.x()) > 59 || std::abs(p.y()) > 59) continue;
+            ++compared;
+            ASSERT_EQ(grid.origin[v], geometry::VertexOrigin::measured) << p.transpose();
+            // Linear interpolation over 2 mm: h^2 / 8 times the curvature, at most 2 / 1.5^2 per mm between the lips,
+            // and the diagonal adds as much again.
+            ASSERT_NEAR(p.z(), test::AnalyticFace::depth(p.x(), p.y()), 0.9) << p.transpose();
+        }
+        EXPECT_GT(compared, 20'000U);
+    }
+}
+
+TEST(Gridding, a_cloud_that_is_seen_through_says_so) {
+    auto scan = head(false);
+    scan.faces = {};
+    GriddingReport report;
+    (void)grid_scan(scan, {}, &report);
+    EXPECT_GT(report.seen_through, 0.5);
+    scan.points_mm.resize(scan.points_mm.size() / 2);
+    (void)grid_scan(scan, {}, &report);
+    EXPECT_EQ(report.seen_through, 0.0);
 }
 
 TEST(Gridding, points_that_share_x_and_y_are_averaged) {

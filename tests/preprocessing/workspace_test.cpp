@@ -1,5 +1,6 @@
 #include "preprocessing/workspace.h"
 
+#include <algorithm>
 #include <atomic>
 #include <fstream>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "database/bosphorus_landmarks.h"
 #include "database/hidden_subjects.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
@@ -173,6 +175,67 @@ TEST_F(WorkspaceTest, an_image_that_only_the_scan_file_names_counts_from_the_run
     fs::remove(image);
     EXPECT_EQ(run().preprocessed, 2U);
     EXPECT_EQ(texture_of("bs001_LFAU_12_0"), "");
+}
+
+TEST_F(WorkspaceTest, a_scan_with_exchanged_labels_fails_and_one_with_an_odd_chin_is_remarked) {
+    const auto marks = geometry::transformed(test::AnalyticFace{1.0, 6}.landmarks(), test::analytic_pose(3));
+    std::vector<geometry::Landmark> exchanged, flat;
+    for (const auto& mark : marks.all()) {
+        const auto& other = mark.name.starts_with("mouth_corner") ? geometry::mirrored_name(mark.name) : mark.name;
+        exchanged.push_back({mark.name, marks.position_mm(other), ""});
+        flat.push_back({mark.name, marks.position_mm(mark.name == "chin" ? "nose_tip" : mark.name), ""});
+    }
+    const auto with = [&](const std::vector<geometry::Landmark>& those) {
+        database::write_lm3(database_ / "bs001" / "bs001_LFAU_12_0.lm3",
+                            database::to_bosphorus_labels(geometry::Landmarks(those)));
+        return preprocess();
+    };
+    auto report = with(exchanged);
+    ASSERT_EQ(report.failures.size(), 1U);
+    EXPECT_EQ(report.failures[0].scan, "bs001_LFAU_12_0");
+    EXPECT_THAT(report.failures[0].reason, AllOf(HasSubstr("bs001_LFAU_12_0.lm3"), HasSubstr("exchanged")));
+    report = with(flat);  // four marks that span no tetrahedron: Eqs 5.1-5.4 have no answer
+    EXPECT_TRUE(report.failures.empty());
+    EXPECT_TRUE(std::any_of(report.remarks.begin(), report.remarks.end(), [](const ScanRemark& r) {
+        return r.scan == "bs001_LFAU_12_0" && r.remark.find("those of the neutral were taken") != std::string::npos;
+    }));
+}
+
+TEST_F(WorkspaceTest, another_stable_region_aligns_the_scans_anew_and_marks_do_not_grow_with_the_subjects) {
+    (void)preprocess();
+    auto options = quick();
+    options.stable_region_name = "another catalogue";
+    EXPECT_EQ(preprocess(options).preprocessed, 3U);  // the neutrals have nothing to be aligned to
+    EXPECT_THAT(geometry::read_text(face_file("bs001_LFAU_12_0.done")), testing::Not(HasSubstr("bs002")));
+}
+
+TEST_F(WorkspaceTest, an_average_face_that_could_not_be_written_whole_is_not_taken_for_finished) {
+    (void)preprocess();
+    const auto stem = workspace_ / "average" / "average_face";
+    std::string fingerprint;
+    const auto average = read_average_face(stem, &fingerprint);
+    fs::remove(fs::path(stem) += ".ply");
+    fs::create_directories((fs::path(stem) += ".ply") / "in the way");
+    EXPECT_THROW(write_average_face(stem, average, fingerprint), InputError);
+    EXPECT_FALSE(fs::exists(fs::path(stem) += ".json"));
+}
+
+TEST_F(WorkspaceTest, a_cloud_with_front_and_back_is_refused_and_the_rest_is_done) {
+    auto database = database::open_database(database_);
+    for (auto& entry : database.scans) {
+        if (entry.id.name() != "bs001_LFAU_12_0") continue;
+        geometry::Mesh mesh;
+        for (const auto& p : database::load(entry).scan.points_mm)
+            if (p.allFinite())
+                for (const double behind_mm : {0.0, 60.0})
+                    mesh.vertices_mm.emplace_back(p.x() + behind_mm / 100, p.y(), p.z() - behind_mm);
+        entry.scan_file.replace_extension(".ply");
+        geometry::write_mesh(entry.scan_file, mesh);
+    }
+    const auto report = preprocess_database(database, workspace_, quick());
+    ASSERT_EQ(report.failures.size(), 1U);
+    EXPECT_THAT(report.failures[0].reason, AllOf(HasSubstr(".ply"), HasSubstr("front and back")));
+    EXPECT_EQ(report.preprocessed, 5U);
 }
 
 TEST_F(WorkspaceTest, a_database_is_never_written_into_but_a_folder_of_its_own_beside_the_subjects_will_do) {

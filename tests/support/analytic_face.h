@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -63,6 +65,22 @@ struct AnalyticFace {
         marks.push_back({"lower_lip_outer", point(0, -41), ""});
         marks.push_back({"chin", point(0, -60), ""});
         return geometry::Landmarks(std::move(marks));
+    }
+    /// A mesh of quads over these lines of x and y, without a lattice; inside |x| < 66, -70 < y < 80 it is the face.
+    [[nodiscard]] geometry::RangeScan mesh(const std::vector<double>& x, const std::vector<double>& y) const {
+        geometry::RangeScan mesh;
+        for (const double row : y)
+            for (const double col : x) mesh.points_mm.push_back(point(col, row));
+        const auto cols = static_cast<std::uint32_t>(x.size());
+        for (std::uint32_t v = 0; v + cols < mesh.points_mm.size(); ++v)
+            if ((v + 1) % cols != 0) mesh.faces.add(std::array<std::uint32_t, 4>{v, v + 1, v + cols + 1, v + cols});
+        return mesh;
+    }
+    /// From `first` to `last` in steps.
+    [[nodiscard]] static std::vector<double> lines(double first, double last, double step_mm) {
+        std::vector<double> at;
+        for (double value = first; value <= last + 1e-9; value += step_mm) at.push_back(value);
+        return at;
     }
     /// The lattice of a scanner looking along -z; `step_mm` apart. The smile moves lattice points with the skin.
     [[nodiscard]] geometry::RangeScan scan(double step_mm = 1.0) const {
