@@ -17,7 +17,7 @@ struct GriddingOptions {
     /// 3 spacings bridge one lost point of a lattice (edges up to 2 spacings) and a steep or noisy stretch, but not a
     /// hole of three points across.
     double max_edge_spacings = 3.0;
-    /// Organised scans: split the scanner's own cells instead of triangulating every point (see grid_scan).
+    /// Organised scans: split the scanner's own cells; meshes: draw their faces; instead of triangulating every point.
     bool use_lattice = true;
     /// @throws InputError naming the field and its value.
     void check() const;
