@@ -311,10 +311,30 @@ std::vector<std::uint32_t> in_sight(const std::vector<std::uint32_t>& rim, std::
     return seen;
 }
 
+constexpr double steepest = 6.0;  // rise over run: scanners lose surfaces that rise by more than about 5
+
+/// Where the surface drops out of sight (from the jaw to the neck, from an ear to the head) the farther vertex no
+/// longer counts as measured: what lies between the two was not seen.
+void cut_at_drops(QuadGrid& grid) {
+    std::vector<std::uint32_t> beyond;
+    const auto compare = [&](std::uint32_t a, std::uint32_t b) {
+        if (!grid.measured(a) || !grid.measured(b)) return;
+        const Point &p = grid.vertices_mm[a], &q = grid.vertices_mm[b];
+        if (std::abs(p.z() - q.z()) > steepest * std::sqrt(planar_squared(p, q)))
+            beyond.push_back(p.z() < q.z() ? a : b);
+    };
+    for (int row = 0; row < grid.rows; ++row)
+        for (int col = 0; col < grid.cols; ++col) {
+            if (col + 1 < grid.cols) compare(grid.index(row, col), grid.index(row, col + 1));
+            if (row + 1 < grid.rows) compare(grid.index(row, col), grid.index(row + 1, col));
+        }
+    for (const auto v : beyond) grid.origin[v] = VertexOrigin::bridged;
+}
+
 /// Share of the triangles between close points whose corners lie far behind one another: hardly any on a surface that a
 /// scanner saw, most of them where the back of a head shows through.
 double share_seen_through(const Samples& samples, const std::vector<Triangle>& triangles, double max_edge_mm) {
-    constexpr double behind_mm = 20.0, steepest = 6.0;  // scanners lose surfaces that rise by more than about 5
+    constexpr double behind_mm = 20.0;
     std::size_t close = 0, through = 0;
     for (const auto& t : triangles) {
         const double squared = longest_squared(samples, t);
@@ -474,6 +494,7 @@ QuadGrid grid_scan(const RangeScan& scan, const GriddingOptions& options, Griddi
         const Samples samples{p, scan.texture_coordinates};
         Raster raster(grid, samples, x, y);
         for (const auto& t : mesh.triangles) raster.draw(t, VertexOrigin::measured, true);
+        cut_at_drops(grid);
         const auto rim = in_sight(mesh.rim, p, grid);
         made.rim_points = rim.size();
         fill_rims(raster, samples, rim, bound(triangle_spacing(samples, mesh.triangles)));

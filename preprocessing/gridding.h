@@ -55,7 +55,8 @@ struct GriddingReport {
 /// their rims. Cells that a tilted pose folds over (seen from behind) are left out, and where sheets still overlap the
 /// one nearest to the camera (highest z) counts.
 /// `mesh` draws the faces that a scan without a lattice has, whatever their winding, and the one nearest to the camera
-/// counts: the back of a head, ears and inner lips stay hidden. Rims are filled as above.
+/// counts: the back of a head, ears and inner lips stay hidden, and where the surface drops out of sight the farther
+/// vertex is `bridged`. Rims are filled as above.
 /// A cloud has neither: points that lie behind one another cannot be told from a surface, and where more than a tenth
 /// of the triangles say so the scan is refused.
 /// @throws InputError for bad options, a scan with fewer than three valid points;

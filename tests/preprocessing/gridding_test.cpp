@@ -1,5 +1,6 @@
 #include "preprocessing/gridding.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -287,6 +288,22 @@ TEST(Gridding, of_a_head_with_a_back_the_face_is_seen_whatever_the_winding) {
             ASSERT_NEAR(p.z(), test::AnalyticFace::depth(p.x(), p.y()), 0.9) << p.transpose();
         }
         EXPECT_GT(compared, 20'000U);
+    }
+}
+
+TEST(Gridding, no_skirt_hangs_from_a_jaw_to_the_neck_behind_it) {
+    RangeScan scan;  // two sheets that overlap, 40 mm apart
+    scan.points_mm = {{0, 0, 0},   {20, 0, 0},   {20, 12, 0},  {0, 12, 0},
+                      {0, 10, 40}, {20, 10, 40}, {20, 20, 40}, {0, 20, 40}};
+    scan.faces.add(std::array<std::uint32_t, 4>{0, 1, 2, 3});
+    scan.faces.add(std::array<std::uint32_t, 4>{4, 5, 6, 7});
+    GriddingOptions options;
+    options.rows = options.cols = 21;
+    const auto grid = grid_scan(scan, options);
+    for (std::size_t v = 0; v < grid.size(); ++v) {
+        const auto& p = grid.vertices_mm[v];
+        EXPECT_EQ(p.z(), p.y() >= 10 ? 40.0 : 0.0) << p.transpose();
+        EXPECT_EQ(grid.measured(v), p.y() != 9.0) << p.transpose();  // the last row before the drop
     }
 }
 
