@@ -109,7 +109,7 @@ MeshFile decode(MeshFormat format, std::span<const std::uint8_t> bytes, const st
         case MeshFormat::vtp:
             break;
     }
-    return formats::decode_vtp(bytes, name);
+    return formats::decode_vtp(bytes, name, parts);
 }
 
 }  // namespace

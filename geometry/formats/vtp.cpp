@@ -19,6 +19,8 @@ namespace {
 
 constexpr int most_components = 1000;
 constexpr std::uint64_t best_deflate_ratio = 1032;
+// Compressed arrays can hold 8000 times their bytes as numbers, and any number of them may name the same data.
+constexpr std::uint64_t most_decoded_bytes = std::uint64_t{256} << 20;
 constexpr std::string_view texture_array = "TextureCoordinates";
 constexpr std::string_view texture_corner_array = "TextureCorners";
 constexpr std::string_view colour_array = "RGB";
@@ -86,7 +88,11 @@ struct Values {
 
 class VtpReader {
 public:
-    VtpReader(std::span<const std::uint8_t> bytes, const std::string& name) : name_(name) {
+    VtpReader(std::span<const std::uint8_t> bytes, const std::string& name, MeshParts parts)
+        : name_(name),
+          parts_(parts),
+          // Bytes that are not compressed become numbers of at most eight times their size.
+          memory_left_(std::max<std::uint64_t>(most_decoded_bytes, sizeof(double) * bytes.size())) {
         const auto text = as_text(bytes);
         // Raw appended data is not XML: the document is read without it.
         const auto begin = text.find("<AppendedData");
@@ -121,14 +127,14 @@ public:
 
         MeshFile file;
         auto& mesh = file.mesh;
-        const auto points = read_array(piece.child("Points").child("DataArray"), "Points");
+        const std::string_view stated = piece.attribute("NumberOfPoints").value();
+        const auto point_count = parse_integer(stated);
+        if (!point_count || *point_count < 0)
+            fail(fmt::format("NumberOfPoints is {}; it must be a whole number", in_quotes(stated)));
+        const auto points = read_array(piece.child("Points").child("DataArray"), "Points", *point_count);
         if (points.components != 3) fail(fmt::format("Points have {} components, not 3", points.components));
         for (std::size_t i = 0; i < points.tuples(); ++i)
             mesh.vertices_mm.emplace_back(points.values[3 * i], points.values[3 * i + 1], points.values[3 * i + 2]);
-        if (const auto promised = parse_integer(piece.attribute("NumberOfPoints").value());
-            !promised || *promised != static_cast<std::int64_t>(mesh.vertices_mm.size()))
-            fail(fmt::format("NumberOfPoints is {}, but the array Points has {}",
-                             in_quotes(piece.attribute("NumberOfPoints").value()), mesh.vertices_mm.size()));
         read_polygons(piece.child("Polys"), mesh);
         read_strips(piece.child("Strips"), mesh);
         read_point_data(piece.child("PointData"), mesh);
@@ -144,10 +150,29 @@ private:
                             : load<std::uint32_t>(bytes.data() + 4 * index, swap_);
     }
 
+    /// Called before the memory of an array is taken: does its size fit, and all arrays together into their limit?
+    void admit(const Values& array, const std::string& what, std::uint64_t values, std::optional<std::int64_t> points) {
+        const auto components = static_cast<std::uint64_t>(array.components);
+        if (values % components != 0)
+            fail(fmt::format("array {} has {} values, not a multiple of its {} components", in_quotes(what), values,
+                             components));
+        if (points && values / components != static_cast<std::uint64_t>(*points))
+            fail(fmt::format("array {} has {} entries, but NumberOfPoints is {}", in_quotes(what), values / components,
+                             *points));
+        if (values > memory_left_ / sizeof(double))
+            fail(
+                fmt::format("array {} has {} values; with it all arrays take more than {} MB of memory; leave arrays "
+                            "out or thin the mesh out",
+                            in_quotes(what), values, most_decoded_bytes >> 20));
+        memory_left_ -= sizeof(double) * values;
+    }
+
     /// The bytes of an array: a header with sizes, then the data, plain or in compressed blocks. A source gives the
-    /// next n bytes or fewer; base64 starts afresh after the header of compressed data, as VTK writes it.
+    /// next n bytes or fewer; base64 starts afresh after the header of compressed data, as VTK writes it. `admit_bytes`
+    /// is asked before memory is taken.
+    template <class Admit>
     std::vector<std::uint8_t> block_bytes(std::span<const std::uint8_t> raw, std::string_view base64, bool is_raw,
-                                          const std::string& array) const {
+                                          const std::string& array, Admit admit_bytes) const {
         const std::size_t word = wide_header_ ? 8 : 4;
         const auto truncated = [&] { fail(fmt::format("array {} is truncated", in_quotes(array))); };
         const auto take = [&](std::uint64_t size) {
@@ -163,13 +188,19 @@ private:
         };
         const auto available = [&] { return is_raw ? raw.size() : base64.size() / 4 * 3 + 3; };
         if (!compressed_) {
-            if (is_raw) return take(header_word(take(word), 0));
+            if (is_raw) {
+                const auto size = header_word(take(word), 0);
+                if (size > raw.size()) truncated();
+                admit_bytes(size);
+                return take(size);
+            }
             // Length and data are one base64 stream.
             auto peek = base64;
             const auto head = decode_base64(peek, word);
             if (head.size() < word) truncated();
             const auto size = header_word(head, 0);
             if (size > available()) truncated();
+            admit_bytes(size);
             auto all = take(word + size);
             all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(word));
             return all;
@@ -186,33 +217,38 @@ private:
         if (head.size() < 3 * word || blocks > available() / word) truncated();
         const auto block_size = header_word(head, 1), last_size = header_word(head, 2);
         const auto sizes = take((3 + blocks) * word);
-        std::vector<std::uint8_t> out;
-        std::uint64_t packed_total = 0;
+        const auto size_of_block = [&](std::uint64_t b) {
+            return b + 1 == blocks && last_size > 0 ? last_size : block_size;
+        };
+        std::uint64_t packed_total = 0, total = 0;
         for (std::uint64_t b = 0; b < blocks; ++b) {
             const auto packed_size = header_word(sizes, 3 + b);
             if (packed_size > available() || packed_total + packed_size > available()) truncated();
             packed_total += packed_size;
+            if (size_of_block(b) > best_deflate_ratio * packed_size + 64)
+                fail(fmt::format("array {}: {} compressed bytes cannot hold {}; the file is damaged", in_quotes(array),
+                                 packed_size, size_of_block(b)));
+            total += size_of_block(b);
         }
+        admit_bytes(total);
         const auto packed = take(packed_total);
-        std::size_t at = 0;
+        std::vector<std::uint8_t> out(total);
+        std::size_t from = 0, to = 0;
         for (std::uint64_t b = 0; b < blocks; ++b) {
             const auto packed_size = static_cast<std::size_t>(header_word(sizes, 3 + b));
-            const auto size = b + 1 == blocks && last_size > 0 ? last_size : block_size;
-            if (size > best_deflate_ratio * packed_size + 64)
-                fail(fmt::format("array {}: {} compressed bytes cannot hold {}; the file is damaged", in_quotes(array),
-                                 packed_size, size));
-            const auto begin = out.size();
-            out.resize(begin + size);
+            const auto size = static_cast<std::size_t>(size_of_block(b));
             auto written = static_cast<uLongf>(size);
-            if (uncompress(out.data() + begin, &written, packed.data() + at, static_cast<uLong>(packed_size)) != Z_OK ||
+            if (uncompress(out.data() + to, &written, packed.data() + from, static_cast<uLong>(packed_size)) != Z_OK ||
                 written != size)
                 fail(fmt::format("array {}: block {} of its compressed data is damaged", in_quotes(array), b));
-            at += packed_size;
+            from += packed_size;
+            to += size;
         }
         return out;
     }
 
-    Values read_array(const pugi::xml_node& node, const std::string& what) const {
+    /// With `points` the array must have one entry for each.
+    Values read_array(const pugi::xml_node& node, const std::string& what, std::optional<std::int64_t> points = {}) {
         if (!node) fail(fmt::format("array {} is missing", in_quotes(what)));
         Values array;
         array.name = node.attribute("Name").value();
@@ -241,10 +277,13 @@ private:
                     array.values.push_back(*value);
                 }
             }
+            admit(array, what, array.values.size(), points);
         } else {
             std::vector<std::uint8_t> bytes;
+            const auto size = size_of(array.type);
+            const auto admit_bytes = [&](std::uint64_t count) { admit(array, what, count / size, points); };
             if (format == "binary") {
-                bytes = block_bytes({}, trimmed_text(node), false, what);
+                bytes = block_bytes({}, node.text().get(), false, what, admit_bytes);
             } else if (format == "appended") {
                 const auto offset = parse_integer(node.attribute("offset").value());
                 if (!offset || *offset < 0 || static_cast<std::uint64_t>(*offset) >= appended_.size())
@@ -252,24 +291,18 @@ private:
                                      in_quotes(node.attribute("offset").value()), appended_.size()));
                 const auto data = appended_.subspan(static_cast<std::size_t>(*offset));
                 const auto text = as_text(data);
-                bytes = block_bytes(data, text.substr(0, text.find('<')), appended_is_raw_, what);
+                bytes = block_bytes(data, text.substr(0, text.find('<')), appended_is_raw_, what, admit_bytes);
             } else {
                 fail(fmt::format("array {}: format is {}; it must be ascii, binary or appended", in_quotes(what),
                                  in_quotes(format)));
             }
-            const auto size = size_of(array.type);
             array.values.resize(bytes.size() / size);
             load_column(array.type, swap_, bytes.data(), size, array.values.size(), array.values.data(), 1);
         }
-        if (array.values.size() % static_cast<std::size_t>(array.components) != 0)
-            fail(fmt::format("array {} has {} values, not a multiple of its {} components", in_quotes(what),
-                             array.values.size(), array.components));
         return array;
     }
 
-    static std::string_view trimmed_text(const pugi::xml_node& node) { return node.text().get(); }
-
-    Values cell_array(const pugi::xml_node& cells, const char* array) const {
+    Values cell_array(const pugi::xml_node& cells, const char* array) {
         for (const auto node : cells.children("DataArray"))
             if (std::string_view(node.attribute("Name").value()) == array)
                 return read_array(node, fmt::format("{}/{}", cells.name(), array));
@@ -278,7 +311,7 @@ private:
 
     /// Cells as lists of checked vertex indices.
     template <class Add>
-    void for_each_cell(const pugi::xml_node& cells, std::size_t vertex_count, Add add) const {
+    void for_each_cell(const pugi::xml_node& cells, std::size_t vertex_count, Add add) {
         const auto corners = cell_array(cells, "connectivity"), ends = cell_array(cells, "offsets");
         std::vector<std::uint32_t> cell;
         std::size_t at = 0;
@@ -301,11 +334,11 @@ private:
         }
     }
 
-    void read_polygons(const pugi::xml_node& cells, Mesh& mesh) const {
+    void read_polygons(const pugi::xml_node& cells, Mesh& mesh) {
         for_each_cell(cells, mesh.vertices_mm.size(), [&](const auto& cell) { mesh.faces.add(cell); });
     }
 
-    void read_strips(const pugi::xml_node& cells, Mesh& mesh) const {
+    void read_strips(const pugi::xml_node& cells, Mesh& mesh) {
         for_each_cell(cells, mesh.vertices_mm.size(), [&](const auto& strip) {
             for (std::size_t k = 2; k < strip.size(); ++k) {
                 const bool odd = k % 2 == 1;  // every other triangle of a strip runs the other way round
@@ -314,7 +347,7 @@ private:
         });
     }
 
-    void read_point_data(const pugi::xml_node& data, Mesh& mesh) const {
+    void read_point_data(const pugi::xml_node& data, Mesh& mesh) {
         const auto n = mesh.vertices_mm.size();
         const std::string_view texture_name = data.attribute("TCoords").value(),
                                normals_name = data.attribute("Normals").value();
@@ -322,10 +355,10 @@ private:
             const std::string_view array_name = node.attribute("Name").value();
             if (array_name == "Normals" || (!normals_name.empty() && array_name == normals_name)) continue;
             if (!parse_type(node.attribute("type").value())) continue;  // text, bits: no numbers per vertex
-            auto array = read_array(node, std::string(array_name));
-            if (array.tuples() != n)
-                fail(fmt::format("array {} has {} entries for {} points", in_quotes(array_name), array.tuples(), n));
             const bool texture = array_name == texture_array || (!texture_name.empty() && array_name == texture_name);
+            if (parts_ == MeshParts::without_attributes && !texture && !equal_ignoring_case(array_name, colour_array))
+                continue;
+            auto array = read_array(node, std::string(array_name), static_cast<std::int64_t>(n));
             if (texture && array.components >= 2 && mesh.texture_coordinates.empty()) {
                 for (std::size_t i = 0; i < n; ++i) {
                     const auto at = i * static_cast<std::size_t>(array.components);
@@ -343,7 +376,7 @@ private:
         }
     }
 
-    void read_corner_texture(const pugi::xml_node& data, Mesh& mesh) const {
+    void read_corner_texture(const pugi::xml_node& data, Mesh& mesh) {
         const auto positions = cell_array(data, texture_array.data()),
                    corners = cell_array(data, texture_corner_array.data());
         if (positions.values.empty() || corners.values.empty()) return;
@@ -362,6 +395,8 @@ private:
     }
 
     std::string name_;
+    MeshParts parts_;
+    std::uint64_t memory_left_;  ///< for the arrays still to be read
     std::shared_ptr<const pugi::xml_document> document_;
     std::span<const std::uint8_t> appended_;
     bool appended_is_raw_ = false, swap_ = false, wide_header_ = false, compressed_ = false;
@@ -412,8 +447,8 @@ std::vector<double> flattened(const Coordinates& coordinates) {
 
 }  // namespace
 
-MeshFile decode_vtp(std::span<const std::uint8_t> bytes, const std::string& name) {
-    return VtpReader(bytes, name).read();
+MeshFile decode_vtp(std::span<const std::uint8_t> bytes, const std::string& name, MeshParts parts) {
+    return VtpReader(bytes, name, parts).read();
 }
 
 void encode_vtp(std::ostream& out, const Mesh& mesh) {

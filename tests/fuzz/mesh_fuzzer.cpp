@@ -108,6 +108,16 @@ std::vector<std::string> seeds() {
             "</PointData><Strips><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>"
             "<DataArray type=\"Int32\" Name=\"offsets\" "
             "format=\"ascii\">3</DataArray></Strips></Piece></PolyData></VTKFile>");
+    if (format == MeshFormat::vtp) {  // two arrays of the same data
+        std::string shared =
+            "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1\"><Points><DataArray type=\"Float32\" "
+            "NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></Points><PointData><DataArray "
+            "type=\"UInt8\" Name=\"a\" NumberOfComponents=\"12\" format=\"appended\" offset=\"0\"/></PointData>"
+            "</Piece></PolyData><AppendedData encoding=\"raw\">_";
+        formats::append(shared, std::uint32_t{12});
+        for (const float value : {1.F, 2.F, 3.F}) formats::append(shared, value);
+        files.push_back(shared + "</AppendedData></VTKFile>");
+    }
     return files;
 }
 

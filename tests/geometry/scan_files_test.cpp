@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <liblzf/lzf.h>
+#include <zlib.h>
 
 #include "geometry/file.h"
 #include "geometry/formats/bytes.h"
@@ -344,7 +345,8 @@ TEST(Vtp, errors_name_the_array_and_the_value) {
                 HasSubstr("PolyData has no Piece"));
     EXPECT_THAT(with(""), HasSubstr("array 'Points' is missing"));
     EXPECT_THAT(refused(MeshFormat::vtp, vtp(ascii_points, "4")),
-                HasSubstr("NumberOfPoints is '4', but the array Points has 3"));
+                HasSubstr("array 'Points' has 3 entries, but NumberOfPoints is 4"));
+    EXPECT_THAT(refused(MeshFormat::vtp, vtp(ascii_points, "many")), HasSubstr("NumberOfPoints is 'many'"));
     EXPECT_THAT(
         with(
             "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 a 0</DataArray></Points>"),
@@ -370,7 +372,54 @@ TEST(Vtp, errors_name_the_array_and_the_value) {
         HasSubstr("Polys: offset of cell 0 is 9; there are 3 corners"));
     EXPECT_THAT(with(ascii_points +
                      "<PointData><DataArray type=\"Float32\" Name=\"d\" format=\"ascii\">1 2</DataArray></PointData>"),
-                HasSubstr("array 'd' has 2 entries for 3 points"));
+                HasSubstr("array 'd' has 2 entries, but NumberOfPoints is 3"));
+}
+
+/// A file of `points` points at the origin: Points, and `copies` further arrays, share one compressed block of zeros.
+std::string compressed_vtp(std::uint64_t points, int copies) {
+    const std::vector<std::uint8_t> zeros(static_cast<std::size_t>(3 * points));
+    auto packed_size = compressBound(static_cast<uLong>(zeros.size()));
+    std::string packed(packed_size, '\0');
+    EXPECT_EQ(compress2(reinterpret_cast<Bytef*>(packed.data()), &packed_size, zeros.data(),
+                        static_cast<uLong>(zeros.size()), 9),
+              Z_OK);
+    packed.resize(packed_size);
+    const auto array = [](const std::string& name) {
+        return "<DataArray type=\"UInt8\" Name=\"" + name +
+               "\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>";
+    };
+    std::string text =
+        "<VTKFile type=\"PolyData\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"><PolyData><Piece "
+        "NumberOfPoints=\"" +
+        std::to_string(points) + "\"><Points>" + array("Points") + "</Points><PointData>";
+    for (int k = 0; k < copies; ++k) text += array("copy" + std::to_string(k));
+    text += "</PointData></Piece></PolyData><AppendedData encoding=\"raw\">_";
+    for (const std::uint64_t word : {std::uint64_t{1}, 3 * points, std::uint64_t{0}, std::uint64_t{packed.size()}})
+        append(text, word);
+    return text + packed + "</AppendedData></VTKFile>";
+}
+
+// A million points of three values take 24 MB; 256 MB hold eleven such arrays.
+TEST(Vtp, arrays_that_share_compressed_data_do_not_get_more_memory_than_the_limit) {
+    const auto at_limit = compressed_vtp(1'000'000, 10), above = compressed_vtp(1'000'000, 400);
+    ASSERT_LT(above.size(), 64U << 10U);
+    EXPECT_EQ(decode(MeshFormat::vtp, at_limit).mesh.attributes.size(), 10U);
+    EXPECT_THAT(refused(MeshFormat::vtp, above),
+                HasSubstr("scan: array 'copy10' has 3000000 values; with it all arrays take more than 256 MB"));
+    // Who asks for no attributes has none decoded.
+    EXPECT_EQ(
+        decode_mesh(MeshFormat::vtp, bytes_of(above), "scan", LengthUnit::millimetre, MeshParts::without_attributes)
+            .mesh.vertices_mm.size(),
+        1'000'000U);
+}
+
+TEST(Vtp, a_compressed_array_of_another_length_than_the_points_is_refused_by_its_header) {
+    auto text = compressed_vtp(1'000'000, 1);
+    const std::string stated = "NumberOfPoints=\"1000000\"";
+    text.replace(text.find(stated), stated.size(), "NumberOfPoints=\"1000\"");
+    text.replace(text.size() - 500, 400, 400, 'x');  // nor could it be unpacked
+    EXPECT_THAT(refused(MeshFormat::vtp, text),
+                HasSubstr("array 'Points' has 1000000 entries, but NumberOfPoints is 1000"));
 }
 
 TEST(Vtp, a_truncated_file_is_refused_wherever_it_is_cut) {
