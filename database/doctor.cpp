@@ -127,31 +127,62 @@ void check_unit(const LoadedScan& loaded, const DoctorOptions& options, Report& 
         where);
 }
 
+/// One axis of the scan by its witnesses.
+struct AxisWitnesses {
+    std::optional<double> texture, lattice;  ///< correlations
+    std::optional<bool> head_mirrored;       ///< by the landmarks; empty: they do not tell
+};
+struct AxisWords {
+    const char *axis, *of_texture, *of_lattice, *mend, *turn_texture, *turn_lattice;
+};
+
+void check_axis(const AxisWitnesses& by, const AxisWords& words, Report& report) {
+    const bool against_texture = by.texture && *by.texture < 0, against_lattice = by.lattice && *by.lattice < 0;
+    if (!against_texture && !against_lattice) return;
+    const auto falls = [&](const char* of, double correlation) {
+        return fmt::format("{} falls while the {} (correlation {:.2f})", words.axis, of, correlation);
+    };
+    // Pictures are flipped as easily as coordinates: against the texture alone it is the texture that is wrong.
+    const bool two_agree = against_texture && (against_lattice || by.head_mirrored.value_or(false));
+    if ((two_agree || !by.texture) && by.head_mirrored.value_or(true))
+        return report.add(
+            Severity::error, "frame",
+            fmt::format("{}: {} is mirrored",
+                        against_texture ? falls(words.of_texture, *by.texture) : falls(words.of_lattice, *by.lattice),
+                        words.axis),
+            words.mend);
+    if (against_texture)
+        report.add(Severity::warning, "texture",
+                   fmt::format("{}, though nothing else says that {} is mirrored: the texture coordinates are",
+                               falls(words.of_texture, *by.texture), words.axis),
+                   words.turn_texture);
+    if (against_lattice)
+        report.add(
+            Severity::warning, "frame",
+            fmt::format("{}, though {}: the lattice is stored the other way", falls(words.of_lattice, *by.lattice),
+                        by.texture && !against_texture ? "not against the texture" : "the head stands upright"),
+            words.turn_lattice);
+}
+
 void check_frame(const LoadedScan& loaded, Report& report) {
     const auto& found = loaded.checks.correlations;
-    const auto negative = [](const std::optional<double>& value) { return value && *value < 0; };
-    const auto check = [&](const std::optional<double>& by_texture, const std::optional<double>& by_lattice,
-                           const char* what, const char* of_texture, const char* of_lattice, const char* mend,
-                           const char* turn) {
-        if (!negative(by_texture) && !negative(by_lattice)) return;
-        // The texture is the better witness of a mirrored coordinate; without it the lattice must do.
-        const bool mirrored = negative(by_texture) || !by_texture;
-        report.add(mirrored ? Severity::error : Severity::warning, "frame",
-                   fmt::format(
-                       "{} falls while the {} (correlation {:.2f}){}", what,
-                       negative(by_texture) ? of_texture : of_lattice, negative(by_texture) ? *by_texture : *by_lattice,
-                       mirrored ? fmt::format(": {} is mirrored", what)
-                                : std::string(", though not against the texture: the lattice is stored the other way")),
-                   mirrored ? mend : turn);
-    };
-    check(found.x_u, found.x_column, "x", "texture's u grows", "column grows",
-          "change the sign of every x (scan and landmarks): +x is the subject's left, right in the image",
-          "write every row of the lattice the other way round: x grows with the column");
-    check(found.y_v, found.y_row, "y", "texture goes up", "row goes up",
-          "change the sign of every y (scan and landmarks), or turn the rows over: +y is up, row 0 the lowest",
-          "write the rows of the lattice the other way round: row 0 is the lowest");
-
     const auto axes = head_axes(loaded.landmarks);
+    AxisWitnesses x{found.x_u, found.x_column, {}}, y{found.y_v, found.y_row, {}};
+    // Names may follow from where the points lie (Bosphorus labels do): that left is at +x proves nothing.
+    if (axes && axes->lateral.x() < -0.3) x.head_mirrored = true;
+    if (axes && std::abs(axes->up.y()) > 0.5) y.head_mirrored = axes->up.y() < 0;
+    check_axis(
+        x,
+        {"x", "texture's u grows", "column grows",
+         "change the sign of every x (scan and landmarks): +x is the subject's left, right in the image",
+         "turn u: u -> 1 - u; if it is the face that is mirrored, change the sign of every x (scan and landmarks)",
+         "write every row of the lattice the other way round: x grows with the column"},
+        report);
+    check_axis(y,
+               {"y", "texture goes up", "row goes up",
+                "change the sign of every y (scan and landmarks), or turn the rows over: +y is up, row 0 the lowest",
+                "turn v: v -> 1 - v", "write the rows of the lattice the other way round: row 0 is the lowest"},
+               report);
     if (!axes) return;
     const bool y_down = axes->up.y() < -0.5, z_away = axes->out.z() < -0.5;
     if (y_down && z_away)

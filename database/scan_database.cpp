@@ -220,15 +220,17 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 void check_frame(const FrameCorrelations& correlations, std::vector<std::string>& remarks) {
-    const auto expect_positive = [&](const std::optional<double>& value, const char* what) {
+    const auto expect_positive = [&](const std::optional<double>& value, const char* what, const char* other) {
         if (value && *value <= 0)
-            remarks.push_back(
-                fmt::format("{} (correlation {:.2f}); the scan or its texture is mirrored", what, *value));
+            remarks.push_back(fmt::format("{} (correlation {:.2f}): {} the other way round, or the scan is mirrored",
+                                          what, *value, other));
     };
-    expect_positive(correlations.x_u, "x falls as the texture's u grows");
-    expect_positive(correlations.y_v, "y falls as the texture's rows go up");
-    expect_positive(correlations.y_row, "y falls as the row grows");
-    expect_positive(correlations.x_column, "x falls as the column grows");
+    const char* const texture = "its texture coordinates lie";
+    const char* const lattice = "its lattice is stored";
+    expect_positive(correlations.x_u, "x falls as the texture's u grows", texture);
+    expect_positive(correlations.y_v, "y falls as the texture's rows go up", texture);
+    expect_positive(correlations.y_row, "y falls as the row grows", lattice);
+    expect_positive(correlations.x_column, "x falls as the column grows", lattice);
 }
 
 /// Finds the image, compares it with the landmarks' pixels, turns texture coordinates that lie otherwise.

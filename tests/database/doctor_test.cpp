@@ -151,6 +151,40 @@ TEST(Doctor, a_mirrored_scan_is_seen_by_its_texture_and_by_names_of_the_subjects
     EXPECT_THAT(found(check_scan(scan), "sides"), HasSubstr("named left lie at smaller x"));
 }
 
+/// As a PLY has it: no lattice.
+MadeFace as_mesh(MadeFace face) {
+    face.scan.rows = face.scan.cols = 0;
+    return face;
+}
+
+TEST(Doctor, a_flipped_texture_on_an_upright_face_is_a_warning_about_the_texture) {
+    for (const bool lattice : {false, true}) {
+        auto v_down = lattice ? make_face() : as_mesh(make_face());
+        auto u_left = v_down;
+        for (auto& t : v_down.scan.texture_coordinates) t.y() = 1 - t.y();
+        for (auto& t : u_left.scan.texture_coordinates) t.x() = 1 - t.x();
+        auto findings = check_scan(loaded(v_down));
+        EXPECT_EQ(found(findings, "frame"), "") << lattice;
+        EXPECT_THAT(found(findings, "texture"),
+                    testing::AllOf(HasSubstr("warning: y falls while the texture goes up"), HasSubstr("v -> 1 - v")));
+        findings = check_scan(loaded(u_left));
+        EXPECT_EQ(found(findings, "frame"), "") << lattice;
+        EXPECT_THAT(found(findings, "texture"),
+                    testing::AllOf(HasSubstr("warning: x falls while the texture's u grows"), HasSubstr("u -> 1 - u")));
+    }
+}
+
+TEST(Doctor, a_mesh_upside_down_is_an_error_where_texture_and_landmarks_agree) {
+    const auto face = mapped(as_mesh(make_face()), [](auto p) { return geometry::Point(p.x(), -p.y(), p.z()); });
+    EXPECT_THAT(found(check_scan(loaded(face)), "frame"),
+                testing::AllOf(HasSubstr("error: y falls while the texture goes up"), HasSubstr("y is mirrored")));
+    auto unmarked = loaded(face);  // now the texture stands alone
+    unmarked.landmarks = {};
+    const auto findings = check_scan(unmarked);
+    EXPECT_EQ(found(findings, "frame"), "");
+    EXPECT_THAT(found(findings, "texture"), HasSubstr("warning: y falls"));
+}
+
 TEST(Doctor, labels_that_say_the_subjects_left_get_a_warning_in_a_bosphorus_file) {
     auto scan = loaded(make_face());
     scan.checks.sides.left_label_is_subject_right = false;
