@@ -59,8 +59,8 @@ std::size_t rank(const std::vector<std::string_view>& extensions, const fs::path
     return static_cast<std::size_t>(std::find(extensions.begin(), extensions.end(), extension) - extensions.begin());
 }
 
-/// Adds the scans of one folder.
-void add_scans(const fs::path& folder, const std::vector<fs::path>& entries, ScanDatabase& database) {
+/// What lies in one folder, by the name without its extension.
+std::map<std::string, ScanEntry> by_stem(const std::vector<fs::path>& entries) {
     static const std::vector<std::string_view> scans = {".bnt", ".ply", ".pcd", ".obj", ".stl"};
     static const std::vector<std::string_view> landmarks = {".lm3", ".pp", ".fcsv", ".mrk.json", ".csv"};
     static const std::vector<std::string_view> textures = {".png", ".jpg", ".jpeg"};
@@ -77,7 +77,12 @@ void add_scans(const fs::path& folder, const std::vector<fs::path>& entries, Sca
         if (extension == ".lm2") entry.landmarks2d_file = path;
         prefer(entry.texture_file, path, textures);
     }
-    for (auto& [stem, entry] : found) {
+    return found;
+}
+
+/// Adds the scans of one folder.
+void add_scans(const fs::path& folder, const std::vector<fs::path>& entries, ScanDatabase& database) {
+    for (auto& [stem, entry] : by_stem(entries)) {
         const auto id = parse_scan_name(stem);
         if (entry.scan_file.empty()) {
             if (id && !(entry.landmarks_file.empty() && entry.landmarks2d_file.empty() && entry.texture_file.empty()))
@@ -98,6 +103,20 @@ void add_scans(const fs::path& folder, const std::vector<fs::path>& entries, Sca
             database.remarks.push_back(fmt::format("{}: lies in the folder '{}' though its subject is '{}'",
                                                    entry.scan_file.string(), folder_name, id->subject));
         database.scans.push_back(std::move(entry));
+    }
+}
+
+/// A manifest names scan and 3D landmarks; image and image landmarks are found beside the scan, by its name.
+void add_images(std::vector<ScanEntry>& scans) {
+    std::map<fs::path, std::map<std::string, ScanEntry>> folders;
+    std::vector<std::string> unlisted;  // such a scan is refused when it is read
+    for (auto& entry : scans) {
+        const auto [files, is_new] = folders.try_emplace(entry.scan_file.parent_path());
+        if (is_new) files->second = by_stem(listing(files->first, unlisted));
+        const auto beside = files->second.find(entry.file_name_stem);
+        if (beside == files->second.end()) continue;
+        entry.landmarks2d_file = beside->second.landmarks2d_file;
+        entry.texture_file = beside->second.texture_file;
     }
 }
 
@@ -319,6 +338,7 @@ ScanDatabase open_database(const std::filesystem::path& root) {
         database.layout = DatabaseLayout::manifest;
         database.scans = std::move(manifest.scans);
         for (auto& entry : database.scans) entry.layout = DatabaseLayout::manifest;
+        add_images(database.scans);
         std::move(manifest.remarks.begin(), manifest.remarks.end(), std::back_inserter(database.remarks));
         if (database.scans.empty())
             throw InputError(fmt::format("{}: lists no scan; add one line per scan", file.string()));

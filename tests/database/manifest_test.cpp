@@ -115,6 +115,26 @@ TEST_P(LandmarkFile, of_a_ply_scan_in_centimetres_comes_out_in_millimetres_under
 INSTANTIATE_TEST_SUITE_P(Formats, LandmarkFile,
                          testing::Values("anna.csv", "anna.pp", "anna.fcsv", "anna.mrk.json", "anna.lm3"));
 
+TEST(Manifest, image_and_image_landmarks_beside_a_scan_belong_to_it_and_its_texture_is_checked) {
+    const TemporaryFolder folder;
+    auto face = make_face("elsewhere.png");  // the name that the scan file has leads nowhere
+    for (auto& t : face.scan.texture_coordinates) t.y() = 1 - t.y();
+    write_scan(folder.path(), "bs000_N_N_0", face);
+    const auto files = folder.path() / "bs000";
+    std::filesystem::rename(files / "bs000_N_N_0.png", files / "bs000_N_N_0.PNG");
+    geometry::write_atomically(
+        folder.path() / "manifest.csv",
+        "subject,expression,scan,landmarks\nanna,N,./bs000/bs000_N_N_0.bnt,bs000/bs000_N_N_0.lm3\n");
+    const auto database = open_database(folder.path());
+    const auto& entry = database.scans.at(0);
+    EXPECT_EQ(entry.landmarks2d_file.filename(), "bs000_N_N_0.lm2");
+    EXPECT_EQ(entry.texture_file.filename(), "bs000_N_N_0.PNG");
+    const auto loaded = load(entry);
+    ASSERT_TRUE(loaded.checks.texture);
+    EXPECT_EQ(loaded.checks.texture->best, TextureAxes::u_right_v_down);
+    EXPECT_THAT(loaded.remarks, testing::Contains(HasSubstr("were turned")));
+}
+
 TEST(Manifest, a_list_without_a_scan_is_refused) {
     const TemporaryFolder folder;
     geometry::write_atomically(folder.path() / "manifest.csv", "subject,expression,scan\n");
