@@ -40,13 +40,15 @@ formats::RawLandmarks decode_csv(std::string_view text, const std::string& name)
     return raw;
 }
 
-double mean_distance(const std::vector<Landmark>& marks, const Point& signs, const std::vector<Point>& mesh_points) {
-    // Some marks spread over the list are enough to tell the frames apart.
-    const std::size_t step = 1 + marks.size() / 200;
+/// `as_written` is multiplied by `factors`.
+double mean_distance(const std::vector<Landmark>& as_written, const Point& factors,
+                     const std::vector<Point>& mesh_points) {
+    // Some marks spread over the list are enough to tell frames and units apart.
+    const std::size_t step = 1 + as_written.size() / 200;
     double sum = 0;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < marks.size(); i += step, ++count) {
-        const Point p = marks[i].position_mm.cwiseProduct(signs);
+    for (std::size_t i = 0; i < as_written.size(); i += step, ++count) {
+        const Point p = as_written[i].position_mm.cwiseProduct(factors);
         double nearest = std::numeric_limits<double>::infinity();
         for (const auto& q : mesh_points) nearest = std::min(nearest, (q - p).squaredNorm());
         sum += std::sqrt(nearest);
@@ -54,32 +56,51 @@ double mean_distance(const std::vector<Landmark>& marks, const Point& signs, con
     return sum / static_cast<double>(count);
 }
 
-/// Turns the marks to the frame (LPS or RAS) that lies on the mesh.
-void choose_frame(std::vector<Landmark>& marks, std::span<const Point> mesh_points_mm, const std::string& name) {
+/// The factors of x, y and z that put the marks on the mesh: LPS or RAS, each in the unit that the file states and in
+/// the one asked for (Slicer writes millimetres whatever the unit of the mesh that was marked).
+Point factors_onto_mesh(const formats::RawLandmarks& raw, std::span<const Point> mesh_points_mm, LengthUnit asked,
+                        const std::string& name) {
+    const double scale = millimetres_per(raw.unit.value_or(asked));
     std::vector<Point> mesh_points;
     for (const auto& p : mesh_points_mm)
         if (p.allFinite()) mesh_points.push_back(p);
-    if (mesh_points.empty() || marks.empty()) return;
+    if (mesh_points.empty() || raw.marks.empty()) return Point::Constant(scale);
     Eigen::AlignedBox3d box;
     for (const auto& p : mesh_points) box.extend(p);
+    const double limit = 0.05 * box.diagonal().norm();
 
-    const Point turned_signs(-1, -1, 1);
-    const double as_written = mean_distance(marks, Point::Ones(), mesh_points);
-    const double turned = mean_distance(marks, turned_signs, mesh_points);
-    const double nearer = std::min(as_written, turned), limit = 0.05 * box.diagonal().norm();
-    if (!(nearer <= limit))
+    struct Candidate {
+        Point factors;
+        double distance_mm;
+    };
+    std::vector<Candidate> candidates;
+    std::string distances;
+    const auto add = [&](double unit_mm, const char* unit) {
+        for (const double sign : {1.0, -1.0}) {
+            const Point factors = unit_mm * Point(sign, sign, 1);
+            candidates.push_back({factors, mean_distance(raw.marks, factors, mesh_points)});
+            distances +=
+                fmt::format("{}{:.3g} mm {}{}", distances.empty() ? "mean distance " : ", ",
+                            candidates.back().distance_mm, sign > 0 ? "as written" : "with x and y negated", unit);
+        }
+    };
+    add(scale, "");
+    if (const double asked_mm = millimetres_per(asked); asked_mm != scale) add(asked_mm, " in the unit of the mesh");
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.distance_mm < b.distance_mm; });
+    if (!(candidates[0].distance_mm <= limit))
         throw InputError(
-            fmt::format("{}: the landmarks lie on the mesh neither in LPS nor in RAS (mean distance {:.3g} mm as "
-                        "written, {:.3g} mm with x and y negated, at most {:.3g} mm is accepted); do they belong to "
-                        "this mesh, and is the unit right?",
-                        name, as_written, turned, limit));
-    if (nearer >= 0.5 * std::max(as_written, turned))
+            fmt::format("{}: the landmarks lie on the mesh neither in LPS nor in RAS ({}, at most {:.3g} mm is "
+                        "accepted); do they belong to this mesh, and is the unit right?",
+                        name, distances, limit));
+    if (candidates[0].distance_mm >= 0.5 * candidates[1].distance_mm) {
+        const bool same_unit = std::abs(candidates[0].factors.z()) == std::abs(candidates[1].factors.z());
         throw InputError(
-            fmt::format("{}: the landmarks lie on the mesh about as well in LPS as in RAS (mean distance {:.3g} mm "
-                        "as written, {:.3g} mm with x and y negated); save them as .csv in the mesh's own frame",
-                        name, as_written, turned));
-    if (turned < as_written)
-        for (auto& mark : marks) mark.position_mm = mark.position_mm.cwiseProduct(turned_signs);
+            fmt::format("{}: the landmarks lie on the mesh about as well in {} ({}); save them as .csv in "
+                        "the mesh's own frame",
+                        name, same_unit ? "LPS as in RAS" : "one unit as in another", distances));
+    }
+    return candidates[0].factors;
 }
 
 }  // namespace
@@ -113,10 +134,9 @@ Landmarks decode_landmarks(LandmarkFormat format, std::string_view text, const s
         }
         return decode_csv(text, name);
     }();
-    const double scale = millimetres_per(raw.unit.value_or(unit));
-    if (scale != 1.0)
-        for (auto& mark : raw.marks) mark.position_mm *= scale;
-    if (raw.either_frame) choose_frame(raw.marks, mesh_points_mm, name);
+    const Point factors = raw.either_frame ? factors_onto_mesh(raw, mesh_points_mm, unit, name)
+                                           : Point::Constant(millimetres_per(raw.unit.value_or(unit)));
+    for (auto& mark : raw.marks) mark.position_mm = mark.position_mm.cwiseProduct(factors);
     try {
         return Landmarks(std::move(raw.marks));
     } catch (const InputError& e) {

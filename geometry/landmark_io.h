@@ -22,10 +22,11 @@ inline constexpr std::size_t most_landmarks = 10000;
 ///   .pp        MeshLab PickedPoints; active="0" means not set and is left out
 ///   .fcsv      Slicer, # CoordinateSystem = LPS/RAS/0/1
 ///   .mrk.json  Slicer, positionStatus "defined" only; coordinateUnits, where given, goes before `unit`
+///              unless only `unit` lies on the mesh: Slicer writes mm whatever the mesh was in
 ///   .lm3       Bosphorus (raw labels; database/ renames them to the subject's side)
 /// Slicer files do not say in which of LPS and RAS the mesh is: give the mesh's points (NaN ones are passed over) and
 /// the frame that lies on them is taken: mean distance to the nearest point at most 5 % of the mesh's diagonal, and
-/// less than half that of the other frame. Without mesh points coordinates are returned as written.
+/// less than half that of every other. Without mesh points coordinates are returned as written.
 /// @throws InputError naming file, line, value and mend; also where neither LPS nor RAS lies on the mesh.
 [[nodiscard]] Landmarks read_landmarks(const std::filesystem::path& file, std::span<const Point> mesh_points_mm = {},
                                        LengthUnit unit = LengthUnit::millimetre);

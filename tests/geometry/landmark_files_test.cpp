@@ -207,7 +207,30 @@ TEST(Slicer, json_points_without_a_defined_position_are_left_out) {
     EXPECT_EQ(marks.at("3").position_mm, Point(4, 5, 6));
 }
 
-TEST(Slicer, a_unit_that_the_json_states_goes_before_the_one_asked_for) {
+TEST(Slicer, the_unit_that_lies_on_the_mesh_is_taken_whatever_the_json_states) {
+    const auto mesh = plate();  // in mm already, as decoded from a file in cm
+    for (const double sign : {1.0, -1.0})
+        for (const double in_file : {1.0, 0.1}) {  // truly mm, and cm that say mm
+            const auto text = mrk(fmt::format(
+                R"({{"label": "a", "position": [{}, {}, 0]}}, {{"label": "b", "position": [{}, {}, {}]}})",
+                sign * in_file * 10, sign * in_file * 20, sign * in_file * 110, sign * in_file * 120, in_file * 2));
+            const auto marks = decode(LandmarkFormat::mrk_json, text, mesh, LengthUnit::centimetre);
+            EXPECT_LT((marks.at("a").position_mm - Point(10, 20, 0)).norm(), 1e-12);  // 0.1 is not a double
+            EXPECT_LT((marks.at("b").position_mm - Point(110, 120, 2)).norm(), 1e-12);
+        }
+    const std::string off = mrk(R"({"label": "a", "position": [500, 20, 0]})");
+    const auto error = message_of([&] { (void)decode(LandmarkFormat::mrk_json, off, mesh, LengthUnit::centimetre); });
+    EXPECT_THAT(error, HasSubstr("neither in LPS nor in RAS (mean distance 390 mm as written"));
+    EXPECT_THAT(error, HasSubstr("negated in the unit of the mesh, at most"));
+    const std::vector<Point> both = {{10, 20, 0}, {100, 200, 0}};
+    EXPECT_THAT(message_of([&] {
+                    (void)decode(LandmarkFormat::mrk_json, mrk(R"({"label": "a", "position": [10, 20, 0]})"), both,
+                                 LengthUnit::centimetre);
+                }),
+                HasSubstr("about as well in one unit as in another"));
+}
+
+TEST(Slicer, without_a_mesh_a_unit_that_the_json_states_goes_before_the_one_asked_for) {
     const std::string point = R"({"label": "chin", "position": [1, 2, 3]})";
     EXPECT_EQ(decode(LandmarkFormat::mrk_json, mrk(point), {}, LengthUnit::metre).all()[0].position_mm, Point(1, 2, 3));
     EXPECT_EQ(decode(LandmarkFormat::mrk_json, mrk(point, "cm")).all()[0].position_mm, Point(10, 20, 30));
