@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -220,12 +221,17 @@ geometry::Landmarks renamed(const geometry::Landmarks& raw, const std::vector<st
     };
     std::vector<Pair> pairs;
     const auto marks = raw.all();
+    const auto has_side = [&](std::size_t i, Side side) {
+        return recognised[i] && recognised[i]->side_is_the_labels && recognised[i]->side == side;
+    };
+    // One partner each: a label in many spellings is refused below, but not each paired with each before.
+    std::map<std::string_view, std::size_t> right;
+    for (std::size_t i = 0; i < marks.size(); ++i)
+        if (has_side(i, Side::right)) right.emplace(recognised[i]->stem, i);
     for (std::size_t i = 0; i < marks.size(); ++i) {
-        if (!recognised[i] || !recognised[i]->side_is_the_labels || recognised[i]->side != Side::left) continue;
-        for (std::size_t j = 0; j < marks.size(); ++j)
-            if (recognised[j] && recognised[j]->side_is_the_labels && recognised[j]->side == Side::right &&
-                recognised[j]->stem == recognised[i]->stem)
-                pairs.push_back({recognised[i]->stem, marks[i].position_mm.x() < marks[j].position_mm.x()});
+        if (!has_side(i, Side::left)) continue;
+        if (const auto partner = right.find(recognised[i]->stem); partner != right.end())
+            pairs.push_back({recognised[i]->stem, marks[i].position_mm.x() < marks[partner->second].position_mm.x()});
     }
     const auto image_left =
         std::count_if(pairs.begin(), pairs.end(), [](const Pair& p) { return p.left_is_image_left; });
