@@ -159,7 +159,7 @@ std::string state_with(std::string state, const ScanSummary& summary) {
 }
 
 std::string check_state_of(const ScanDatabase& database, const ScanEntry& entry, const DoctorOptions& o) {
-    const auto* neutral = entry.id.side() == Side::both ? nullptr : neutral_of(database, entry);
+    const auto* neutral = side_shows_at_mouth(entry.id) ? neutral_of(database, entry) : nullptr;
     return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", state_of(entry), neutral ? state_of(*neutral) : "",
                        o.min_size_ratio, o.max_size_ratio, o.max_hole_mm, o.spike_mm, o.max_spike_share,
                        o.landmark_off_scan_mm, o.order_tolerance_mm, o.min_points);
@@ -405,7 +405,7 @@ CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntr
             if (!known[i])
                 result.summaries[i] =
                     options.check
-                        ? examine(entry, entry.id.side() == Side::both ? nullptr : neutral_of(database, entry),
+                        ? examine(entry, side_shows_at_mouth(entry.id) ? neutral_of(database, entry) : nullptr,
                                   options.doctor)
                         : summarise(entry);
             if (options.progress) options.progress(entry);

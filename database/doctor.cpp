@@ -222,7 +222,7 @@ void check_sides(const LoadedScan& loaded, const Landmarks* neutral, Report& rep
         report.add(Severity::error, "sides",
                    fmt::format("left and right '{}' are swapped against the other pairs", pair),
                    "exchange the two labels in the landmark file", loaded.entry.landmarks_file.string());
-    if (!neutral || loaded.entry.id.side() == Side::both) return;
+    if (!neutral || !side_shows_at_mouth(loaded.entry.id)) return;
     const auto decision = decide_side(*neutral, loaded.landmarks);
     if (decision.side == opposite(loaded.entry.id.side()))
         report.add(
@@ -463,7 +463,7 @@ std::optional<Landmarks> landmarks_of(const ScanEntry& entry) {
 }
 
 std::vector<Finding> check_scan(const ScanEntry& entry, const ScanEntry* neutral, const DoctorOptions& options) {
-    const auto neutral_landmarks = neutral && entry.id.side() != Side::both ? landmarks_of(*neutral) : std::nullopt;
+    const auto neutral_landmarks = neutral && side_shows_at_mouth(entry.id) ? landmarks_of(*neutral) : std::nullopt;
     const auto* landmarks = neutral_landmarks ? &*neutral_landmarks : nullptr;
     std::string reason;
     try {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "geometry/errors.h"
+#include "geometry/text.h"
 
 namespace mimik::database {
 
@@ -15,6 +16,10 @@ void SideDecisionOptions::check() const {
     if (!(min_difference_mm >= 0))
         throw InputError(fmt::format("min_difference_mm is {}; give 0 or more", min_difference_mm));
     if (!(min_ratio >= 1)) throw InputError(fmt::format("min_ratio is {}; give 1 or more", min_ratio));
+}
+
+bool side_shows_at_mouth(const ScanId& id) {
+    return id.side() != Side::both && geometry::equal_ignoring_case(id.group, "LFAU");
 }
 
 SideDecision decide_side(const geometry::Landmarks& neutral, const geometry::Landmarks& expression,

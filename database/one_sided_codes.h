@@ -20,6 +20,10 @@ struct SideDecision {
     int stable_landmarks = 0;  ///< eye corners and nose that carried one scan on to the other; fewer than 4: undecided
 };
 
+/// Whether the mouth corners can tell on which side a scan's expression happens: a code for one side of the lower face.
+/// A wink or a raised brow moves neither.
+[[nodiscard]] bool side_shows_at_mouth(const ScanId& id);
+
 /// The side on which an expression happens, by the mouth corner that moves more against the neutral scan of the same
 /// subject, after both are brought together rigidly on eye corners, nose saddles and nose tip. Landmarks under our
 /// names, mm.

@@ -177,7 +177,7 @@ void decide_code_sides(ScanDatabase& database) {
     std::map<std::string, std::optional<geometry::Landmarks>> neutrals;  // by subject, in lower case
     std::set<std::string> other_subjects;
     for (const auto& entry : database.scans) {
-        if (entry.id.side() == Side::both || entry.id.group == "UFAU") continue;
+        if (!side_shows_at_mouth(entry.id)) continue;
         const auto subject = lower_case(entry.id.subject);
         const auto [it, is_new] = neutrals.try_emplace(subject);
         if (is_new)

@@ -266,6 +266,8 @@ TEST(Doctor, a_one_sided_scan_that_moves_the_other_corner_is_an_error) {
                 testing::AllOf(HasSubstr("taken as the subject's left side, but the right mouth corner moves"),
                                HasSubstr("LFAU_12R")));
     EXPECT_EQ(found(check_scan(loaded(face, "bs000_LFAU_12R_0"), &neutral), "one-sided"), "");
+    // A wink: what the mouth does beside it says nothing about the code.
+    EXPECT_EQ(found(check_scan(loaded(face, "bs000_UFAU_46L_0"), &neutral), "one-sided"), "");
 }
 
 TEST(Doctor, holes_are_counted_and_the_largest_measured) {
