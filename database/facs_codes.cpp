@@ -30,17 +30,26 @@ std::optional<FacsScore> parse_code(std::string_view code) {
     return code.empty() ? std::optional(score) : std::nullopt;
 }
 
-std::optional<std::vector<FacsScore>> parse_codes(std::string_view codes) {
+struct ParsedCodes {
     std::vector<FacsScore> scores;
-    while (!codes.empty()) {
-        const auto end = codes.find('+');
-        const auto score = parse_code(geometry::trimmed(codes.substr(0, end)));
-        if (!score) return std::nullopt;
-        if (score->action_unit > 0) scores.push_back(*score);
-        if (end == std::string_view::npos) return scores;
-        codes.remove_prefix(end + 1);
+    bool any = false;  ///< a code was understood, if only the 0
+    std::vector<std::string_view> unknown;
+};
+
+ParsedCodes parse_codes(std::string_view codes) {
+    ParsedCodes parsed;
+    for (auto end = std::size_t{0}; end != std::string_view::npos;) {
+        end = codes.find('+');
+        const auto code = geometry::trimmed(codes.substr(0, end));
+        if (const auto score = parse_code(code)) {
+            parsed.any = true;
+            if (score->action_unit > 0) parsed.scores.push_back(*score);
+        } else {
+            parsed.unknown.push_back(code);
+        }
+        if (end != std::string_view::npos) codes.remove_prefix(end + 1);
     }
-    return std::nullopt;
+    return parsed;
 }
 
 }  // namespace
@@ -49,6 +58,10 @@ FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
     FacsCodes result;
     std::size_t not_understood = 0;
     geometry::LineReader lines(text, name);
+    const auto remark = [&](const std::string& what) {
+        if (not_understood++ < max_remarks)
+            result.remarks.push_back(fmt::format("{}: line {}: {}", name, lines.number(), what));
+    };
     while (lines.next()) {
         if (lines.number() > max_lines)
             throw InputError(fmt::format("{}: more than {} lines; is it the right file?", name, max_lines));
@@ -59,24 +72,28 @@ FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
             auto scan = geometry::trimmed(line.substr(0, arrow));
             scan = scan.substr(0, scan.find('.'));  // some lists name the file
             const auto id = parse_scan_name(scan);
-            const auto scores = parse_codes(geometry::trimmed(line.substr(arrow + 2)));
-            if (id && scores) {
-                result.scores[*id] = *scores;
+            auto codes = parse_codes(geometry::trimmed(line.substr(arrow + 2)));
+            const bool header = lines.number() <= 2 && !codes.unknown.empty();
+            if (id && codes.any && !header) {
+                for (const auto code : codes.unknown)
+                    remark(
+                        fmt::format("code {} of {} is no action unit with an optional L or R before and A to E after "
+                                    "it; the code is left out",
+                                    geometry::in_quotes(code), id->name()));
+                result.scores[*id] = std::move(codes.scores);
                 continue;
             }
         }
         if (lines.number() <= 2) continue;  // the two header lines, which may show the form with its arrow
-        if (not_understood++ < max_remarks)
-            result.remarks.push_back(
-                fmt::format("{}: line {}: {} is not of the form 'bs000_LFAU_12_0 -> 6B+12C'; the line is left out",
-                            name, lines.number(), geometry::in_quotes(line)));
+        remark(fmt::format("{} is not of the form 'bs000_LFAU_12_0 -> 6B+12C'; the line is left out",
+                           geometry::in_quotes(line)));
     }
     if (not_understood > 0 && result.scores.empty())
         throw InputError(
             fmt::format("{}: no line is of the form 'bs000_LFAU_12_0 -> 6B+12C'; is it the right file?", name));
     if (not_understood > max_remarks)
         result.remarks.push_back(
-            fmt::format("{}: {} more lines are not understood", name, not_understood - max_remarks));
+            fmt::format("{}: {} more lines or codes are not understood", name, not_understood - max_remarks));
     return result;
 }
 

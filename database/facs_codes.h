@@ -22,7 +22,7 @@ struct FacsScore {
 /// R), the action unit and an optional intensity letter A to E; "0" is nothing.
 struct FacsCodes {
     std::map<ScanId, std::vector<FacsScore>> scores;  ///< an empty vector: scored, nothing visible
-    std::vector<std::string> remarks;                 ///< lines that could not be understood, with file and line number
+    std::vector<std::string> remarks;  ///< lines and codes that could not be understood, with file and line number
 };
 
 /// @throws InputError naming the file if there are more than 100,000 lines or none can be understood.

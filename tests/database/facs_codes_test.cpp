@@ -25,10 +25,19 @@ TEST(FacsCodes, zero_is_a_score_of_nothing) {
 }
 
 TEST(FacsCodes, a_line_that_is_not_understood_is_remarked_with_its_number) {
-    const auto codes = parse_facs_codes("a\nb\nbs003_N_N_0 -> 0\nbs003_E_FEAR_0 -> 1+F2\n", "list");
+    const auto codes = parse_facs_codes("a\nb\nbs003_N_N_0 -> 0\nbs003_E_FEAR_0 -> F2\n", "list");
     EXPECT_EQ(codes.scores.size(), 1U);
     ASSERT_EQ(codes.remarks.size(), 1U);
-    EXPECT_THAT(codes.remarks[0], HasSubstr("list: line 4: 'bs003_E_FEAR_0 -> 1+F2'"));
+    EXPECT_THAT(codes.remarks[0], HasSubstr("list: line 4: 'bs003_E_FEAR_0 -> F2'"));
+}
+
+TEST(FacsCodes, an_unknown_code_is_remarked_and_the_others_of_its_scan_are_kept) {
+    const auto codes = parse_facs_codes("a\nb\nbs000_LFAU_12_0 -> 12D+T23B\nbs000_LFAU_9_0 -> 9B+\n", "list");
+    ASSERT_EQ(codes.scores.size(), 2U);
+    EXPECT_THAT(codes.scores.at(*parse_scan_name("bs000_LFAU_12_0")),
+                testing::ElementsAre(FacsScore{12, Side::both, 'D'}));
+    EXPECT_THAT(codes.remarks, testing::ElementsAre(HasSubstr("list: line 3: code 'T23B' of bs000_LFAU_12_0 is no"),
+                                                    HasSubstr("list: line 4: code '' of bs000_LFAU_9_0")));
 }
 
 TEST(FacsCodes, header_lines_may_show_the_form_with_its_arrow) {
