@@ -113,19 +113,6 @@ std::size_t read_up_to(int descriptor, std::uint8_t* to, std::size_t count, cons
     return done;
 }
 
-void check_texture_name(const std::string& texture, const std::string& what) {
-    const bool plain = std::none_of(texture.begin(), texture.end(),
-                                    [](unsigned char c) { return c == '/' || c == '\\' || c < 0x20 || c == 0x7f; });
-    if (!plain || texture == "." || texture == "..") {
-        std::string shown;
-        for (const char c : texture.substr(0, 80)) shown += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-        throw InputError(
-            fmt::format("{}: texture name '{}' is not a plain file name; write the name of the image without "
-                        "folder",
-                        what, shown));
-    }
-}
-
 [[noreturn]] void refuse_far_cell(const Bnt& bnt, std::size_t cell, const geometry::Point& point_mm,
                                   const std::string& name) {
     Eigen::Index axis = 0;
@@ -223,11 +210,14 @@ void write_bnt(const std::filesystem::path& file, const Bnt& bnt) {
 }
 
 geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name, geometry::LengthUnit unit) {
-    check_texture_name(bnt.texture_file, name);
     geometry::RangeScan scan;
+    try {
+        if (!bnt.texture_file.empty()) scan.texture_file = geometry::checked_texture_name(bnt.texture_file, name);
+    } catch (const InputError& e) {  // the surface can be used without its picture
+        scan.texture_error = e.what();
+    }
     scan.rows = bnt.rows;
     scan.cols = bnt.cols;
-    scan.texture_file = bnt.texture_file;
     const std::size_t cells = std::size_t{bnt.rows} * bnt.cols;
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     scan.points_mm.resize(cells);
@@ -253,8 +243,12 @@ geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name, geome
     return scan;
 }
 
-geometry::RangeScan read_bnt_scan(const std::filesystem::path& file, geometry::LengthUnit unit) {
-    return to_range_scan(read_bnt(file), file.string(), unit);
+geometry::RangeScan read_bnt_scan(const std::filesystem::path& file, geometry::LengthUnit unit,
+                                  geometry::BadTexture bad_texture) {
+    auto scan = to_range_scan(read_bnt(file), file.string(), unit);
+    if (bad_texture == geometry::BadTexture::refuse && !scan.texture_error.empty())
+        throw InputError(scan.texture_error);
+    return scan;
 }
 
 Bnt to_bnt(const geometry::RangeScan& scan, double background) {
@@ -271,12 +265,11 @@ Bnt to_bnt(const geometry::RangeScan& scan, double background) {
     if (!scan.texture_coordinates.empty() && scan.texture_coordinates.size() != cells)
         throw InputError(fmt::format("the scan has {} texture coordinates for {} points; give one for each, or none",
                                      scan.texture_coordinates.size(), cells));
-    check_texture_name(scan.texture_file, "scan");
     Bnt bnt;
     bnt.rows = static_cast<std::uint16_t>(scan.rows);
     bnt.cols = static_cast<std::uint16_t>(scan.cols);
     bnt.background = background;
-    bnt.texture_file = scan.texture_file;
+    if (!scan.texture_file.empty()) bnt.texture_file = geometry::checked_texture_name(scan.texture_file, "scan");
     for (auto* column : columns(bnt)) column->assign(cells, background);
     for (std::size_t i = 0; i < cells; ++i) {
         if (!scan.valid(i)) continue;

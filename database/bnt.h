@@ -27,13 +27,14 @@ struct Bnt {
 void write_bnt(const std::filesystem::path& file, const Bnt& bnt);
 
 /// Invalid cells (any of x, y, z is the background or not finite) become NaN; texture v is turned to count from the
-/// bottom. @throws InputError, beginning with `name`, for a texture name with a folder in it and for a coordinate
-/// beyond 1e6 mm, which no scanner measures.
+/// bottom. A texture's name that is no bare file name is not followed: texture_error says so, beginning with `name`.
+/// @throws InputError, beginning so too, for a coordinate beyond 1e6 mm, which no scanner measures.
 [[nodiscard]] geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name,
                                                 geometry::LengthUnit unit = geometry::LengthUnit::millimetre);
-/// Both in one.
+/// Both in one. @throws InputError also for that name, unless it is asked to be reported.
 [[nodiscard]] geometry::RangeScan read_bnt_scan(const std::filesystem::path& file,
-                                                geometry::LengthUnit unit = geometry::LengthUnit::millimetre);
+                                                geometry::LengthUnit unit = geometry::LengthUnit::millimetre,
+                                                geometry::BadTexture bad_texture = geometry::BadTexture::refuse);
 /// The scan must be organised. NaN points become background cells.
 [[nodiscard]] Bnt to_bnt(const geometry::RangeScan& scan, double background = -1e9);
 

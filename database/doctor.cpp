@@ -359,6 +359,10 @@ void check_texture(const LoadedScan& loaded, Report& report) {
         report.add(Severity::warning, "unreadable", loaded.checks.landmarks2d_error,
                    "mark the points in the image again, or copy the file again; without it the texture is not checked",
                    entry.landmarks2d_file.string());
+    if (!loaded.scan.texture_error.empty())
+        report.add(
+            Severity::warning, "texture", loaded.scan.texture_error,
+            "name an image that lies in the scan's folder; until then the scan is used without the one it names");
     if (entry.texture_file.empty()) {
         if (!loaded.scan.texture_file.empty())
             report.add(Severity::note, "texture",

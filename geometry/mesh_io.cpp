@@ -64,6 +64,26 @@ void drop_unmeasured(Mesh& mesh) {
         attribute.values.resize(kept * static_cast<std::size_t>(attribute.components));
 }
 
+/// The texture's name as it stands in the file becomes its path from the file's folder.
+void find_texture(MeshFile& content, MeshFormat format, const std::filesystem::path& file) {
+    if (content.texture_file.empty()) return;
+    if (format != MeshFormat::obj) {
+        content.texture_file = checked_texture_path(content.texture_file, file.string());
+        return;
+    }
+    const std::filesystem::path named = checked_texture_path(content.texture_file, file.string());
+    content.material_file = named.generic_string();
+    const auto material = file.parent_path() / named;
+    // A missing material file takes the texture away, not the mesh.
+    content.texture_file =
+        std::filesystem::exists(material)
+            ? formats::texture_of_material(read_text(material, std::uintmax_t{1} << 24), material.string())
+            : std::string();
+    if (!content.texture_file.empty())
+        content.texture_file =
+            (named.parent_path() / checked_texture_path(content.texture_file, material.string())).generic_string();
+}
+
 void check_parts_fit(const Mesh& mesh, const std::string& name) {
     const auto n = mesh.vertices_mm.size();
     const auto refuse = [&](const std::string& what) {
@@ -182,23 +202,15 @@ Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit) {
     return mesh;
 }
 
-MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit, MeshParts parts) {
+MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit, MeshParts parts, BadTexture bad_texture) {
     const auto format = mesh_format(file);
     auto content = decode_mesh(format, read_bytes(file), file.string(), unit, parts);
-    if (format == MeshFormat::obj && !content.texture_file.empty()) {
-        const std::filesystem::path named = checked_texture_path(content.texture_file, file.string());
-        content.material_file = named.generic_string();
-        const auto material = file.parent_path() / named;
-        // A missing material file takes the texture away, not the mesh.
-        content.texture_file =
-            std::filesystem::exists(material)
-                ? formats::texture_of_material(read_text(material, std::uintmax_t{1} << 24), material.string())
-                : std::string();
-        if (!content.texture_file.empty())
-            content.texture_file =
-                (named.parent_path() / checked_texture_path(content.texture_file, material.string())).generic_string();
-    } else if (!content.texture_file.empty()) {
-        content.texture_file = checked_texture_path(content.texture_file, file.string());
+    try {
+        find_texture(content, format, file);
+    } catch (const InputError& e) {
+        if (bad_texture == BadTexture::refuse) throw;
+        content.texture_file.clear();
+        content.texture_error = e.what();
     }
     return content;
 }

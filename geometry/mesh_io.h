@@ -29,18 +29,22 @@ enum class MeshFormat { ply, obj, stl, pcd, vtp };
 /// Attributes can take much more memory than the surface: who has no use for them need not have them decoded.
 enum class MeshParts { all, without_attributes };
 
+/// Whether a texture's name that cannot be used is an error, or said in MeshFile::texture_error and the surface read.
+enum class BadTexture { refuse, report };
+
 /// What a file holds beside the surface.
 struct MeshFile {
     Mesh mesh;
     std::string texture_file;        ///< image in the mesh's folder or below it ("tex/skin.png"); empty: none
     std::string material_file = {};  ///< of an OBJ: its mtllib, likewise
+    std::string texture_error = {};  ///< as the error would say it
     int rows = 0;  ///< of a PCD with HEIGHT > 1, in the file's order; its NaN points are then still in `mesh`
     int cols = 0;
 };
 /// read_mesh with the name of the texture image (PLY: comment TextureFile; OBJ: map_Kd of its MTL) and a PCD's lattice.
-/// @throws InputError also where the texture's name leads out of the mesh's folder.
+/// @throws InputError also where the texture's name leads out of the mesh's folder (BadTexture::refuse).
 [[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre,
-                                      MeshParts parts = MeshParts::all);
+                                      MeshParts parts = MeshParts::all, BadTexture bad_texture = BadTexture::refuse);
 
 /// The same from memory; `name` stands for the file in messages. The texture name is as written (for OBJ: the name of
 /// the material file).

@@ -18,6 +18,8 @@ struct RangeScan {
     std::vector<TextureCoordinate> texture_coordinates;  ///< empty, or one per point
     Faces faces;                                         ///< only where a mesh file gave them
     std::string texture_file;                            ///< in the scan's folder or below it; empty: no texture
+    std::string texture_error;                           ///< why the image that the file names is not used
+    std::size_t texture_seam_points = 0;                 ///< of a mesh: points with more than one texture position
     std::string material_file;                           ///< of an OBJ: where the texture's name stands, likewise
 
     [[nodiscard]] bool organised() const { return rows > 0; }

@@ -35,28 +35,39 @@ void flip(std::vector<T>& values, int rows, int cols, bool flip_rows, bool flip_
         for (int row = 0; row < rows; ++row) std::reverse(row_begin(row), row_begin(row + 1));
 }
 
-/// One texture position per point, from those per corner.
-void texture_per_point(Mesh& mesh) {
+/// One texture position per point, from those per corner. Returns at how many points corners differ.
+std::size_t texture_per_point(Mesh& mesh) {
     auto& faces = mesh.faces;
-    if (faces.texture_corners.empty()) return;
+    if (faces.texture_corners.empty()) return 0;
+    constexpr double same = 1e-4;  // less than a pixel of the largest images: digits that an exporter cut
     std::vector<TextureCoordinate> per_point(mesh.vertices_mm.size(), TextureCoordinate::Zero());
-    for (std::size_t k = faces.corners.size(); k-- > 0;)
-        per_point[faces.corners[k]] = mesh.texture_coordinates[faces.texture_corners[k]];
+    std::vector<char> seen(per_point.size(), 0), seam(per_point.size(), 0);
+    for (std::size_t k = 0; k < faces.corners.size(); ++k) {
+        const auto point = faces.corners[k];
+        const auto& position = mesh.texture_coordinates[faces.texture_corners[k]];
+        if (seen[point] == 0)
+            per_point[point] = position;
+        else if ((position - per_point[point]).cwiseAbs().maxCoeff() > same)
+            seam[point] = 1;
+        seen[point] = 1;
+    }
     mesh.texture_coordinates = std::move(per_point);
     faces.texture_corners.clear();
+    return static_cast<std::size_t>(std::count(seam.begin(), seam.end(), 1));
 }
 
 }  // namespace
 
 RangeScan to_range_scan(MeshFile file, const std::string& name) {
-    texture_per_point(file.mesh);
     RangeScan scan;
+    scan.texture_seam_points = texture_per_point(file.mesh);
     scan.rows = file.rows;
     scan.cols = file.cols;
     scan.points_mm = std::move(file.mesh.vertices_mm);
     scan.texture_coordinates = std::move(file.mesh.texture_coordinates);
     scan.faces = std::move(file.mesh.faces);
     scan.texture_file = std::move(file.texture_file);
+    scan.texture_error = std::move(file.texture_error);
     scan.material_file = std::move(file.material_file);
     if (std::none_of(scan.points_mm.begin(), scan.points_mm.end(), [](const Point& p) { return p.allFinite(); }))
         throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", name));
@@ -80,7 +91,7 @@ RangeScan to_range_scan(MeshFile file, const std::string& name) {
 }
 
 RangeScan read_range_scan(const std::filesystem::path& file, LengthUnit unit) {
-    return to_range_scan(read_mesh_file(file, unit, MeshParts::without_attributes), file.string());
+    return to_range_scan(read_mesh_file(file, unit, MeshParts::without_attributes, BadTexture::report), file.string());
 }
 
 }  // namespace mimik::geometry

@@ -10,8 +10,9 @@ namespace mimik::geometry {
 /// A scan from a mesh or point file (.ply .obj .stl .pcd .vtp) in millimetres, in the file's own frame, which must be
 /// ours (+x the subject's left, +y up, +z out of the face). A PCD with HEIGHT > 1 gives an organised scan; its rows and
 /// columns are turned so that y grows with the row and x with the column. Texture positions per corner become one per
-/// point, that of the point's first corner ((0, 0) for a point without a face).
-/// @throws InputError as read_mesh_file, and where no point was measured.
+/// point, that of the point's first corner ((0, 0) for a point without a face): along seams between charts it is wrong
+/// on one side. A texture's name that cannot be used is said in the scan.
+/// @throws InputError as read_mesh_file but for the texture, and where no point was measured.
 [[nodiscard]] RangeScan read_range_scan(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre);
 [[nodiscard]] RangeScan to_range_scan(MeshFile file, const std::string& name);
 

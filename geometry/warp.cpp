@@ -46,8 +46,15 @@ struct WarpInput {
     std::vector<std::string> names;
 };
 
-WarpInput read_input(const std::filesystem::path& input) {
-    if (!is_csv(input)) return {read_mesh_file(input), {}};
+bool takes_texture(const std::filesystem::path& output) {
+    return !is_csv(output) && (mesh_format(output) == MeshFormat::ply || mesh_format(output) == MeshFormat::obj);
+}
+
+WarpInput read_input(const std::filesystem::path& input, const std::filesystem::path& output) {
+    if (!is_csv(input))
+        return {read_mesh_file(input, LengthUnit::millimetre, MeshParts::all,
+                               takes_texture(output) ? BadTexture::refuse : BadTexture::report),
+                {}};
     auto table = read_points_csv(input);
     WarpInput result;
     result.file.mesh.vertices_mm = std::move(table.points);
@@ -73,7 +80,7 @@ void write_output(const std::filesystem::path& output, WarpInput warp, const std
     auto& mesh = warp.file.mesh;
     if (!is_csv(output)) {
         MeshWriteOptions options;
-        if (const auto format = mesh_format(output); format == MeshFormat::ply || format == MeshFormat::obj)
+        if (takes_texture(output))
             options.texture_file = copy_texture(warp.file.texture_file, input.parent_path(), output, warp_options);
         write_mesh(output, mesh, options);
         return;
@@ -131,7 +138,7 @@ WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::p
                      const std::filesystem::path& input, const std::filesystem::path& output,
                      const WarpOptions& options) {
     check_output_format(output);
-    auto warp = read_input(input);
+    auto warp = read_input(input, output);
     const auto& points = warp.file.mesh.vertices_mm;
     const auto source = read_landmarks(from), target = read_landmarks(to);
     const auto spline = fit_landmark_spline(source, target, options);

@@ -172,12 +172,20 @@ TEST(BntScan, converting_there_and_back_keeps_positions_and_the_unmeasured_cells
     EXPECT_EQ(again.texture_file, bnt.texture_file);
 }
 
-TEST(BntScan, a_texture_name_with_a_folder_in_it_is_refused) {
-    for (const char* name : {"../../etc/secret.png", "/abs.png", "a\\b.png", ".."}) {
-        Bnt bnt = small_scan();
+TEST(BntScan, a_texture_name_with_a_folder_in_it_is_not_followed) {
+    Bnt bnt = small_scan();
+    for (const char* name : {"../../etc/secret.png", "/abs.png", "a\\b.png", "..", "a/b.png", "C:x.png"}) {
         bnt.texture_file = name;
-        EXPECT_THAT(message_of<InputError>([&] { (void)to_range_scan(bnt, "made.bnt"); }), HasSubstr(name));
+        auto scan = to_range_scan(bnt, "made.bnt");
+        EXPECT_EQ(scan.texture_file, "");
+        EXPECT_THAT(scan.texture_error, testing::AllOf(HasSubstr("made.bnt: texture name is"), HasSubstr(name)));
+        scan.texture_file = name;
+        EXPECT_THAT(message_of<InputError>([&] { (void)to_bnt(scan); }), HasSubstr(name));
     }
+    bnt.texture_file = "a\nb.png";
+    EXPECT_THAT(to_range_scan(bnt, "made.bnt").texture_error, HasSubstr("'a?b.png'"));
+    bnt.texture_file.clear();
+    EXPECT_EQ(to_range_scan(bnt, "made.bnt").texture_error, "");
 }
 
 TEST(BntScan, a_coordinate_further_than_a_kilometre_is_refused_with_its_cell_and_value) {

@@ -351,6 +351,17 @@ TEST(MeshFiles, a_texture_name_that_leads_out_of_the_folder_is_refused) {
                 HasSubstr("b.obj: texture name is '../a.mtl'"));
 }
 
+TEST(MeshFiles, a_texture_name_that_cannot_be_used_leaves_the_surface_on_request) {
+    const TemporaryFolder folder;
+    write_atomically(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\n");
+    write_atomically(folder / "a.mtl", "newmtl x\nmap_Kd C:\\scans\\face.jpg\n");
+    const auto file = read_mesh_file(folder / "a.obj", LengthUnit::millimetre, MeshParts::all, BadTexture::report);
+    EXPECT_EQ(file.mesh.vertices_mm.size(), 1U);
+    EXPECT_EQ(file.texture_file, "");
+    EXPECT_EQ(file.material_file, "a.mtl");
+    EXPECT_THAT(file.texture_error, HasSubstr("a.mtl: texture name is 'C:\\scans\\face.jpg'; put the image"));
+}
+
 TEST(MeshFiles, an_unknown_extension_is_refused_with_those_there_are) {
     EXPECT_THAT(message_of([] { (void)mesh_format("scan.xyz"); }),
                 HasSubstr("scan.xyz: extension '.xyz' is no mesh format; there are .ply, .obj"));

@@ -260,6 +260,7 @@ TEST(RangeScanFiles, texture_positions_per_corner_become_one_per_point) {
     EXPECT_THAT(scan.texture_coordinates, ElementsAre(TextureCoordinate(0.1, 0.2), TextureCoordinate(0.3, 0.4),
                                                       TextureCoordinate(0.5, 0.6), TextureCoordinate(0, 0)));
     EXPECT_TRUE(scan.faces.texture_corners.empty());
+    EXPECT_EQ(scan.texture_seam_points, 1U);  // corners 1 and 4 of point 0
     EXPECT_EQ(scan.faces.size(), 2U);
     EXPECT_EQ(scan.texture_file, "face 1.png");
 }

@@ -111,6 +111,16 @@ TEST_F(Warp, takes_the_texture_image_along_under_a_name_that_no_other_image_has)
     EXPECT_EQ(read_mesh_file(at("bare.obj")).texture_file, "");
 }
 
+TEST_F(Warp, refuses_a_texture_name_only_for_an_output_that_takes_the_texture) {
+    write_atomically(at("in.obj"), "mtllib in.mtl\nv 2 2 2\nv 4 0 0\nv 4 4 4\nf 1 2 3\n");
+    write_atomically(at("in.mtl"), "newmtl skin\nmap_Kd C:\\scans\\face.jpg\n");
+    for (const char* name : {"out.csv", "out.stl", "out.vtp"})
+        EXPECT_EQ(warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at(name)).points, 3U) << name;
+    for (const char* name : {"out.obj", "out.ply"})
+        EXPECT_THAT(message_of<InputError>([&] { (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at(name)); }),
+                    HasSubstr("texture name is 'C:"));
+}
+
 TEST_F(Warp, of_a_point_whose_place_has_no_number_is_refused_by_its_name) {
     write_atomically(at("in.csv"), "name,x,y,z\nnear,2,2,2\nfar,1e200,0,0\n");
     EXPECT_THAT(
