@@ -176,6 +176,7 @@ void decide_code_sides(ScanDatabase& database) {
     auto& sides = database.code_sides;
     std::map<std::string, std::optional<geometry::Landmarks>> neutrals;  // by subject, in lower case
     std::set<std::string> other_subjects;
+    std::map<std::pair<std::string, std::optional<int>>, std::set<Side>> contradicted;  // by subject and action unit
     for (const auto& entry : database.scans) {
         if (!side_shows_at_mouth(entry.id)) continue;
         const auto subject = lower_case(entry.id.subject);
@@ -186,12 +187,17 @@ void decide_code_sides(ScanDatabase& database) {
         const auto expression = it->second ? landmarks_if_readable(entry) : std::nullopt;
         const Side moved = expression ? decide_side(*it->second, *expression).side : Side::both;
         ++(moved == Side::both ? sides.undecided : moved == entry.id.side() ? sides.own_side : sides.other_side);
-        if (moved == opposite(entry.id.side())) other_subjects.insert(subject);
+        if (moved == opposite(entry.id.side())) {
+            other_subjects.insert(subject);
+            contradicted[{subject, entry.id.action_unit()}].insert(entry.id.side());
+        }
     }
-    // Two scans of one subject may be two slips of one hand.
+    // Two scans of one subject may be two slips of one hand; not so 12L and 12R, where nothing speaks against it.
     constexpr int enough_votes = 3;
+    const bool both_ways = sides.own_side == 0 && std::any_of(contradicted.begin(), contradicted.end(),
+                                                              [](const auto& unit) { return unit.second.size() == 2; });
     const bool most = sides.other_side > 0 && sides.other_side >= 2 * sides.own_side;
-    sides.swapped = most && (sides.other_side >= enough_votes || other_subjects.size() >= 2);
+    sides.swapped = most && (sides.other_side >= enough_votes || other_subjects.size() >= 2 || both_ways);
     if (sides.swapped) {
         for (auto& entry : database.scans) entry.id = entry.id.mirrored();
         std::sort(database.scans.begin(), database.scans.end(),
@@ -203,13 +209,15 @@ void decide_code_sides(ScanDatabase& database) {
         "one-sided codes: {} scans move the subject's own side, {} the other, {} are undecided; 12L in file names is "
         "taken as the subject's {}{}",
         sides.own_side, sides.other_side, sides.undecided, sides.swapped ? "right" : "left",
-        most && !sides.swapped ? fmt::format(": to turn all names takes {} scans or two subjects", enough_votes) : ""));
+        most && !sides.swapped
+            ? fmt::format(": to turn all names takes {} scans, two subjects or 12L and 12R of one", enough_votes)
+            : ""));
 }
 
 geometry::RangeScan read_scan(const ScanEntry& entry) {
     try {
         return same(entry.scan_file.extension().string(), ".bnt")
-                   ? read_bnt_scan(entry.scan_file, entry.unit)
+                   ? read_bnt_scan(entry.scan_file, entry.unit, geometry::BadTexture::report)
                    : geometry::read_range_scan(entry.scan_file, entry.unit);
     } catch (const InputError&) {
         throw;
@@ -256,6 +264,11 @@ void check_frame(const FrameCorrelations& correlations, std::vector<std::string>
 void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& nearest) {
     ScanEntry& entry = loaded.entry;
     std::error_code ignored;
+    if (!loaded.scan.texture_error.empty()) loaded.remarks.push_back(loaded.scan.texture_error);
+    if (loaded.scan.texture_seam_points > 0)
+        loaded.remarks.push_back(
+            fmt::format("its texture has several charts: at {} points that lie in more than one the texture is smeared",
+                        loaded.scan.texture_seam_points));
     if (const auto& named = loaded.scan.material_file; !named.empty())
         loaded.files_looked_for.push_back(entry.scan_file.parent_path() / named);
     if (const auto& named = loaded.scan.texture_file; !named.empty()) {

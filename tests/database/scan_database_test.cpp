@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "database/doctor.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/landmark_io.h"
@@ -44,6 +45,27 @@ TEST(ScanDatabase, a_folder_in_bosphorus_layout_is_listed_in_order) {
     EXPECT_EQ(database.find(*parse_scan_name("bs000_LFAU_13_0")), nullptr);
     EXPECT_TRUE(database.scans[0].scan_file.is_absolute());
     EXPECT_THAT(database.remarks, IsEmpty());
+}
+
+TEST(ScanDatabase, a_scan_whose_texture_name_leads_elsewhere_is_loaded_without_it) {
+    const TemporaryFolder folder;
+    const auto at = [&](const char* name) { return folder.path() / name; };
+    geometry::write_atomically(at("a.obj"),
+                               "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.5 0.5\n"
+                               "f 1/1 2/2 3/3\nf 1/1 3/4 2/2\n");
+    geometry::write_atomically(at("a.mtl"), "newmtl x\nmap_Kd C:\\scans\\face.jpg\n");
+    geometry::write_atomically(at("manifest.csv"), "subject,expression,scan\nanna,N,a.obj\n");
+    const auto entry = open_database(folder.path()).scans.at(0);
+    const auto loaded = load(entry);
+    EXPECT_EQ(loaded.scan.points_mm.size(), 3U);
+    EXPECT_THAT(loaded.remarks, Contains(HasSubstr("a.mtl: texture name is 'C:\\scans\\face.jpg'")));
+    EXPECT_THAT(loaded.remarks, Contains(HasSubstr("at 1 points that lie in more than one")));
+    const auto findings = check_scan(entry, nullptr);
+    const auto finding =
+        std::find_if(findings.begin(), findings.end(), [](const Finding& f) { return f.kind == "texture"; });
+    ASSERT_NE(finding, findings.end());
+    EXPECT_EQ(finding->severity, Severity::warning);
+    EXPECT_THAT(finding->what, HasSubstr("a.mtl: texture name is"));
 }
 
 TEST(ScanDatabase, files_that_fit_no_pattern_are_remarked_not_lost) {
@@ -169,13 +191,27 @@ TEST(OneSidedCodes, are_decided_by_landmarks_of_any_format) {
     }
 }
 
-TEST(OneSidedCodes, two_votes_of_one_subject_turn_no_names_and_of_two_subjects_do) {
+TEST(OneSidedCodes, left_and_right_of_one_subject_turn_the_names_where_nobody_contradicts) {
     const TemporaryFolder folder;
     write_viewers_smiles(folder.path(), "bs000", {"12L", "12R"}, ".csv");
+    EXPECT_TRUE(open_database(folder.path()).code_sides.swapped);
+    auto own = make_face();
+    write_scan(folder.path(), "bs001_N_N_0", own);
+    own.landmarks = moved(own.landmarks, {{"mouth_corner_left", {0, 8, -2}}});
+    write_scan(folder.path(), "bs001_LFAU_12L_0", own);
+    const auto database = open_database(folder.path());
+    EXPECT_EQ(database.code_sides.own_side, 1);
+    EXPECT_FALSE(database.code_sides.swapped);
+}
+
+TEST(OneSidedCodes, two_votes_for_one_side_of_one_subject_turn_no_names_and_of_two_subjects_do) {
+    const TemporaryFolder folder;
+    write_viewers_smiles(folder.path(), "bs000", {"12L", "14L"}, ".csv");
     const auto few = open_database(folder.path());
     EXPECT_EQ(few.code_sides.other_side, 2);
     EXPECT_FALSE(few.code_sides.swapped);
-    EXPECT_THAT(few.remarks, ElementsAre(HasSubstr("taken as the subject's left: to turn all names takes 3 scans")));
+    EXPECT_THAT(few.remarks, ElementsAre(HasSubstr("taken as the subject's left: to turn all names takes 3 scans, two "
+                                                   "subjects or 12L and 12R of one")));
     write_viewers_smiles(folder.path(), "bs001", {"12L"}, ".csv");
     EXPECT_TRUE(open_database(folder.path()).code_sides.swapped);
 }
@@ -316,15 +352,18 @@ TEST(Load, a_scan_without_any_point_is_refused) {
                 HasSubstr("bs000_N_N_0.bnt: holds no measured point"));
 }
 
-TEST(Load, a_texture_name_with_a_folder_is_refused_with_the_file) {
+TEST(Load, a_texture_name_with_a_folder_is_remarked_with_the_file_and_not_followed) {
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_N_N_0", make_face());
     const auto file = folder.path() / "bs000/bs000_N_N_0.bnt";
     Bnt bnt = read_bnt(file);
     bnt.texture_file = "../../secret.png";
     write_bnt(file, bnt);
-    EXPECT_THAT(message_of<InputError>([&] { (void)load(open_database(folder.path()).scans[0]); }),
-                testing::AllOf(HasSubstr("bs000_N_N_0.bnt: "), HasSubstr("../../secret.png")));
+    const auto loaded = load(open_database(folder.path()).scans[0]);
+    EXPECT_THAT(loaded.remarks,
+                Contains(testing::AllOf(HasSubstr("bs000_N_N_0.bnt: "), HasSubstr("../../secret.png"))));
+    EXPECT_EQ(loaded.entry.texture_file.filename(), "bs000_N_N_0.png");  // the one beside it, by its name
+    EXPECT_THAT(message_of<InputError>([&] { (void)read_bnt_scan(file); }), HasSubstr("../../secret.png"));
 }
 
 }  // namespace
