@@ -216,7 +216,8 @@ Json mesh_json(const GlbMesh& source, std::optional<std::size_t> material, Buffe
     attributes["NORMAL"] = buffer.add_floats(mesh.normals, 1.0, false);
     if (!mesh.texture_coordinates.empty())
         attributes["TEXCOORD_0"] = buffer.add_texture_coordinates(mesh.texture_coordinates);
-    if (!mesh.colours.empty()) attributes["COLOR_0"] = buffer.add_colours(mesh.colours);
+    // glTF multiplies colours into the texture, which would darken the picture twice.
+    if (!mesh.colours.empty() && source.texture_png.empty()) attributes["COLOR_0"] = buffer.add_colours(mesh.colours);
     Json primitive = {{"attributes", attributes}, {"indices", buffer.add_indices(mesh.triangles)}, {"mode", 4}};
     if (material) primitive["material"] = *material;
 

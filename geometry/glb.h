@@ -25,7 +25,7 @@ struct GlbMesh {
     std::vector<Point> positions_mm;
     std::vector<Vector> normals;                         ///< empty: computed from the triangles
     std::vector<TextureCoordinate> texture_coordinates;  ///< empty, or one per vertex, v up as everywhere in Mimik
-    std::vector<std::array<std::uint8_t, 3>> colours;    ///< empty, or RGB per vertex
+    std::vector<std::array<std::uint8_t, 3>> colours;    ///< empty, or RGB per vertex; left out beside a texture
     std::vector<Triangle> triangles;
     std::vector<std::uint8_t> texture_png;  ///< a PNG file, embedded; empty: plain skin colour
     std::vector<MorphTarget> morph_targets;

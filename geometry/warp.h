@@ -41,7 +41,7 @@ struct WarpReport {
 
 /// Warps a file: points as CSV (name,x,y,z) or a mesh (PLY, OBJ, STL, PCD, VTP), by extension, to a file of the same or
 /// another of these formats (not PCD). CSV keeps the names; points of a mesh get their number, from 0, as name. The
-/// texture image of face.ply or face.obj is copied beside it as face_texture.png.
+/// texture image of an output face.ply or face.obj is copied beside it as face_texture.<ext>, the image's extension.
 /// @param from, to  landmark files in any form that read_landmarks knows, their coordinates taken as written.
 /// @throws InputError; NumericalError also where the place of a point is not finite.
 WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::path& to,

@@ -97,6 +97,15 @@ TEST(Glb, lengths_are_metres_v_runs_down_and_unused_vertices_are_gone) {
     EXPECT_EQ(texture.back(), 0.0F);
 }
 
+TEST(Glb, vertex_colours_are_left_out_beside_a_texture) {
+    auto scene = textured_scene();
+    scene.meshes[0].colours.assign(scene.meshes[0].positions_mm.size(), {10, 20, 30});
+    const auto attributes = [&] { return split(encode_glb(scene)).json["meshes"][0]["primitives"][0]["attributes"]; };
+    EXPECT_TRUE(attributes().contains("TEXCOORD_0") && !attributes().contains("COLOR_0"));
+    scene.meshes[0].texture_png.clear();
+    EXPECT_TRUE(attributes().contains("COLOR_0"));
+}
+
 TEST(Glb, morph_targets_keep_their_names_weights_and_displacements) {
     const auto glb = encode_glb(textured_scene());
     const auto chunks = split(glb);
