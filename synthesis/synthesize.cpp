@@ -318,10 +318,16 @@ SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model
     const fs::path& folder = unfinished.path();
 
     std::vector<MadeSubject> subjects(static_cast<std::size_t>(options.subjects));
-    geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t s = begin; s < end; ++s)
-            subjects[s] = make_subject(folder, model, subject_name(static_cast<int>(s)), tasks, options, report);
-    });
+    // A subject in the making takes up to 80 MB. So many at a time, whatever the number of threads: within a subject
+    // the scans are spread over all of them.
+    constexpr std::size_t most_at_a_time = 8;
+    for (std::size_t first = 0; first < subjects.size(); first += most_at_a_time)
+        geometry::parallel_for(
+            std::min(most_at_a_time, subjects.size() - first), 1, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t s = first + begin; s < first + end; ++s)
+                    subjects[s] =
+                        make_subject(folder, model, subject_name(static_cast<int>(s)), tasks, options, report);
+            });
     report.subjects = subjects.size();
 
     json subject_list = json::array(), scan_list = json::array();

@@ -82,6 +82,20 @@ TEST_F(Synthesize, truth_holds_the_pose_and_the_displacement_from_the_resting_fa
         ASSERT_LT((head[i] - scan.displacement_mm[i] - subject.resting_mm[i]).norm(), 1e-9);  // double through a pose
 }
 
+// Memory goes with the subjects in the making. 16 subjects of one scan on 8 threads: unbounded, the second half begins
+// beside the first.
+TEST_F(Synthesize, at_most_eight_subjects_are_in_the_making_at_a_time) {
+    geometry::set_thread_count(8);
+    options_.subjects = 16;
+    options_.neutrals = 1;
+    options_.expressions = "N";
+    std::vector<std::string> done;
+    options_.on_scan_done = [&](const std::string& name) { done.push_back(name); };
+    (void)synthesize_database(folder_ / "db", *make_dome_model(), options_);
+    ASSERT_EQ(done.size(), 16U);
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_LT(done[i], "bs008") << i;
+}
+
 TEST_F(Synthesize, same_bytes_on_one_thread_and_on_three) {
     const auto model = make_dome_model();
     geometry::set_thread_count(1);
