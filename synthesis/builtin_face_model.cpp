@@ -15,9 +15,6 @@ class BuiltinFaceModel final : public FaceModel {
 public:
     [[nodiscard]] std::string name() const override { return "built-in"; }
     [[nodiscard]] const geometry::Faces& faces() const override { return sheet_.faces; }
-    [[nodiscard]] const std::vector<geometry::TextureCoordinate>& texture_coordinates() const override {
-        return sheet_.texture_coordinates;
-    }
     [[nodiscard]] const std::map<std::string, std::uint32_t>& landmark_vertices() const override {
         return sheet_.landmarks;
     }

@@ -269,7 +269,6 @@ Sheet make_sheet() {
             at(r, c) = static_cast<std::uint32_t>(sheet.vertices.size());
             sheet.lower_lip_side.push_back(r > mouth_row);
             sheet.regions.push_back(region_of(p));
-            sheet.texture_coordinates.emplace_back((s + rim) / (2 * rim), (p.v - bottom) / (top - bottom));
             sheet.vertices.push_back(p);
         }
         const auto& middle = sheet.vertices[at(r, half_count - 1)];

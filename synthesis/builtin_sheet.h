@@ -43,7 +43,6 @@ struct Sheet {
     std::vector<bool> lower_lip_side;   ///< hangs on the jaw where the mouth parts the sheet: below the mouth's row
     std::map<std::string, std::uint32_t> landmarks;
     std::vector<std::string> regions;
-    std::vector<geometry::TextureCoordinate> texture_coordinates;
     std::uint32_t columns = 0;
 
     /// The vertex nearest to a place of the mean face (rows below the mouth's row only if `below`).

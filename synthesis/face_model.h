@@ -41,8 +41,6 @@ public:
 
     [[nodiscard]] virtual std::string name() const = 0;              ///< "built-in", "ict-facekit"
     [[nodiscard]] virtual const geometry::Faces& faces() const = 0;  ///< of the skin that a scanner can see
-    /// One per vertex, for the skin-like texture.
-    [[nodiscard]] virtual const std::vector<geometry::TextureCoordinate>& texture_coordinates() const = 0;
     /// Landmark name (geometry::standard_landmark_names()) -> vertex index.
     [[nodiscard]] virtual const std::map<std::string, std::uint32_t>& landmark_vertices() const = 0;
     /// Per vertex: a word for what skin it is ("skin", "lip", "brow", "eye" for the dark

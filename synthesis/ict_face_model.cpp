@@ -88,7 +88,6 @@ public:
 
     std::string name() const override { return "ict-facekit"; }
     const geometry::Faces& faces() const override { return faces_; }
-    const std::vector<geometry::TextureCoordinate>& texture_coordinates() const override { return texture_; }
     const std::map<std::string, std::uint32_t>& landmark_vertices() const override { return ict_landmarks(); }
     const std::vector<std::string>& vertex_regions() const override { return regions_; }
 
@@ -145,7 +144,6 @@ private:
         auto skin = decode_ict_skin(geometry::read_bytes(file, most_mesh_bytes), file.string(), skin_vertices);
         mean_ = std::move(skin.vertices_mm);
         faces_ = std::move(skin.faces);
-        texture_ = std::move(skin.texture);
     }
 
     void read_modes_and_shapes(const fs::path& folder) {
@@ -228,7 +226,6 @@ private:
     std::vector<std::vector<Vector>> modes_;
     std::map<std::string, std::vector<Vector>> shapes_;
     geometry::Faces faces_;
-    std::vector<geometry::TextureCoordinate> texture_;
     std::vector<std::string> regions_;
     double larger_face_sign_ = 1.0;
 };

@@ -25,18 +25,9 @@ IctSkin decode_ict_skin(std::span<const std::uint8_t> bytes, const std::string& 
     auto mesh = geometry::decode_mesh(geometry::MeshFormat::obj, bytes, name, geometry::LengthUnit::centimetre).mesh;
     check_count(mesh.vertices_mm.size(), wanted, name);
     IctSkin skin;
-    skin.texture.assign(wanted, geometry::TextureCoordinate::Zero());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         const auto corners = mesh.faces[f];
-        if (*std::max_element(corners.begin(), corners.end()) >= wanted) continue;
-        skin.faces.add(corners);
-        if (mesh.texture_coordinates.empty()) continue;
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const auto& uv = mesh.texture_coordinates[mesh.faces.texture_corners.empty()
-                                                          ? corners[k]
-                                                          : mesh.faces.texture_corners[mesh.faces.first[f] + k]];
-            skin.texture[corners[k]] = {uv.x() - std::floor(uv.x()), uv.y() - std::floor(uv.y())};
-        }
+        if (*std::max_element(corners.begin(), corners.end()) < wanted) skin.faces.add(corners);
     }
     if (skin.faces.size() == 0)
         throw InputError(fmt::format("{}: no face of the skin; is it the ICT-FaceKit mesh?", name));

@@ -13,8 +13,7 @@ namespace mimik::synthesis {
 /// ICT-FaceKit's OBJ files are in centimetres; its skin comes first, then mouth, eyes and teeth.
 struct IctSkin {
     std::vector<geometry::Point> vertices_mm;
-    geometry::Faces faces;                             ///< those with no corner behind the skin
-    std::vector<geometry::TextureCoordinate> texture;  ///< per vertex, in [0, 1): the place inside its tile
+    geometry::Faces faces;  ///< those with no corner behind the skin
 };
 
 /// The whole mesh, cut to its first `wanted` vertices; `name` stands for the file. @throws InputError naming what is

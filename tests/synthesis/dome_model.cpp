@@ -45,7 +45,6 @@ public:
                 mean_.emplace_back(x, y, 100.0 - (x * x + y * y) / 100.0);
                 const bool eye = std::abs(std::abs(x) - 31) < 12 && std::abs(y - 36) < 5;
                 regions_.emplace_back(eye ? "eye" : "skin");
-                texture_.emplace_back(c / (cols - 1.0), r / (rows - 1.0));
                 if (r + 1 == rows || c + 1 == cols) continue;
                 const auto i = static_cast<std::uint32_t>(r * cols + c);
                 const std::array<std::uint32_t, 4> quad = {i, i + 1, i + cols + 1, i + cols};
@@ -62,7 +61,6 @@ public:
     }
     std::string name() const override { return "dome"; }
     const geometry::Faces& faces() const override { return faces_; }
-    const std::vector<geometry::TextureCoordinate>& texture_coordinates() const override { return texture_; }
     const std::map<std::string, std::uint32_t>& landmark_vertices() const override { return marks_; }
     const std::vector<std::string>& vertex_regions() const override { return regions_; }
     Identity draw_identity(std::uint64_t seed, Sex sex, double spread) const override {
@@ -90,7 +88,6 @@ public:
 private:
     std::vector<geometry::Point> mean_;
     std::vector<std::string> regions_;
-    std::vector<geometry::TextureCoordinate> texture_;
     geometry::Faces faces_;
     std::map<std::string, std::uint32_t> marks_;
 };

@@ -77,14 +77,12 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-TEST(IctObj, the_skin_is_what_comes_first_in_millimetres_with_the_place_inside_the_texture_tile) {
+TEST(IctObj, the_skin_is_what_comes_first_in_millimetres) {
     const std::string text =
         "v 0 0 1\nv 1 0 1\nv 0 1 1\nv 9 9 9\nvt 0.25 1.5\nvt -0.25 0\nf 1/1 2/2 3/1\nf 2/1 3/1 4/1\n";
     const auto skin = decode_ict_skin(bytes_of(text), "m.obj", 3);
     EXPECT_EQ(skin.vertices_mm, (std::vector<geometry::Point>{{0, 0, 10}, {10, 0, 10}, {0, 10, 10}}));
     EXPECT_EQ(skin.faces.corners, (std::vector<std::uint32_t>{0, 1, 2}));  // the other one is behind the skin
-    EXPECT_EQ(skin.texture[0], geometry::TextureCoordinate(0.25, 0.5));
-    EXPECT_EQ(skin.texture[1], geometry::TextureCoordinate(0.75, 0));
     EXPECT_EQ(decode_ict_vertices(text.substr(0, 26), "m.obj", 3), skin.vertices_mm);  // "v 9 9" is half a line
 }
 
