@@ -35,16 +35,16 @@ void write_grid(const std::filesystem::path& file, const geometry::QuadGrid& gri
     mesh.vertices_mm = grid.vertices_mm;
     mesh.faces = geometry::quads(grid);
     mesh.texture_coordinates = grid.texture_coordinates;
+    // A scan may have points without a place in the image; files of meshes hold finite numbers only.
+    for (auto& uv : mesh.texture_coordinates)
+        if (!uv.allFinite()) uv.setZero();
     // Viewers choke on NaN: cells outside the face get the depth of the lowest vertex, and no quad uses them.
     double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t v = 0; v < grid.size(); ++v)
         if (grid.inside(v)) lowest = std::min(lowest, grid.vertices_mm[v].z());
     geometry::VertexAttribute origin{"origin", 1, {}};
     for (std::size_t v = 0; v < grid.size(); ++v) {
-        if (!grid.inside(v)) {
-            mesh.vertices_mm[v].z() = lowest;
-            if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates[v].setZero();
-        }
+        if (!grid.inside(v)) mesh.vertices_mm[v].z() = lowest;
         origin.values.push_back(static_cast<double>(grid.origin[v]));
     }
     mesh.attributes.push_back(std::move(origin));

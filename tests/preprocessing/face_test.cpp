@@ -77,6 +77,20 @@ TEST(FaceFile, a_grid_must_have_as_many_of_everything_as_its_json_says) {
     EXPECT_THAT(error(mesh, 2, 2), StartsWith("g.ply: property 'origin' is missing"));
 }
 
+TEST(FaceFile, a_vertex_without_a_place_in_the_image_is_written_and_read_back) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const test::TemporaryFolder folder;
+    geometry::QuadGrid grid;
+    grid.rows = grid.cols = 2;
+    grid.vertices_mm = {{0, 0, 1}, {1, 0, 2}, {0, 1, 3}, {1, 1, 4}};
+    grid.origin.assign(4, geometry::VertexOrigin::measured);
+    grid.texture_coordinates = {{0.1, 0.2}, {nan, nan}, {0.3, 0.4}, {0.5, 0.6}};
+    write_grid(folder.path() / "grid.ply", grid);
+    const auto read = read_grid(folder.path() / "grid.ply", 2, 2);
+    EXPECT_EQ(read.vertices_mm[1], grid.vertices_mm[1]);
+    EXPECT_EQ(read.texture_coordinates[3], grid.texture_coordinates[3]);
+}
+
 TEST(WorkspaceFile, hostile_values_are_refused_with_file_and_field) {
     const std::string sound =
         R"({"schema": 1, "database": "/db", "truth": false, "scans": ["bs000_N_N_0"], "hidden_subjects": ["bs009"]})";
