@@ -452,16 +452,19 @@ std::string expression_name(const FacsCatalogue& catalogue, const std::string& e
     for (const auto& emotion : catalogue.emotions())
         if (emotion.name == code) return emotion.name;
     std::string name;
-    for (const auto& sided : catalogue.resolve(expression)) {
-        name += fmt::format("{}AU{}", name.empty() ? "" : "+", sided.unit->number);
-        if (sided.side != database::Side::both) name += sided.side == database::Side::left ? "_L" : "_R";
+    for (const auto& part : unit_codes_of(code)) {
+        name += fmt::format("{}AU{}", name.empty() ? "" : "+", *part.action_unit());
+        if (part.side() != database::Side::both) name += part.side() == database::Side::left ? "_L" : "_R";
+        if (part.low_intensity()) name += "_LW";
     }
     return name;
 }
 
 std::string arkit_shape(const FacsCatalogue& catalogue, const std::string& expression) {
     const auto units = catalogue.resolve(expression);
-    if (units.size() == 1) {
+    const auto parts = unit_codes_of(catalogue.code(expression));
+    // A blendshape at 1 is the full motion: a scan of low intensity is none.
+    if (units.size() == 1 && !(parts.size() == 1 && parts.front().low_intensity())) {
         const auto& [unit, side] = units.front();
         if (side == database::Side::both && !unit->arkit_whole.empty()) return unit->arkit_whole;
         if (side != database::Side::both && !unit->arkit.empty())

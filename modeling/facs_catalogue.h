@@ -101,12 +101,13 @@ private:
     std::string name_, content_hash_;
 };
 
-/// The ARKit blendshape of an expression: "12L" -> "mouthSmileLeft", "17" -> "mouthShrugLower"; empty without one, or
-/// for both sides of a paired AU (ARKit has none for both).
+/// The ARKit blendshape of an expression: "12L" -> "mouthSmileLeft", "17" -> "mouthShrugLower"; empty without one,
+/// for both sides of a paired AU (ARKit has none for both), or for low intensity (a blendshape is the full motion).
 [[nodiscard]] std::string arkit_shape(const FacsCatalogue& catalogue, const std::string& expression);
 /// The same, and Mimik's own name where there is none: "AU12".
 [[nodiscard]] std::string arkit_name(const FacsCatalogue& catalogue, const std::string& expression);
-/// Mimik's own name of an expression: "12" -> "AU12", "4L" -> "AU4_L", "happy" -> "HAPPY", "A12A15" -> "AU12+AU15".
+/// Mimik's own name of an expression: "12" -> "AU12", "4L" -> "AU4_L", "12LW" -> "AU12_LW", "happy" -> "HAPPY",
+/// "A12A15" -> "AU12+AU15". Other expressions have other names, and code() reads every name back.
 [[nodiscard]] std::string expression_name(const FacsCatalogue& catalogue, const std::string& expression);
 
 /// The catalogue that Mimik ships (modeling/facs.toml, embedded).

@@ -87,7 +87,8 @@ TEST(FacsCatalogue, reads_every_way_in_which_mimik_spells_an_expression_as_one) 
     const std::vector<std::pair<std::string, std::vector<std::string>>> spellings = {
         {"12", {"12", "AU12", "au12", "LFAU_12", "A12"}},
         {"12L", {"12L", "12l", "AU12_L", "au12_l", "AU12L"}},
-        {"12LW", {"12LW", "12lw"}},
+        {"12LW", {"12LW", "12lw", "AU12_LW"}},
+        {"A12LWA15", {"A12LWA15", "AU12_LW+AU15"}},
         {"A12A15", {"A12A15", "AU12+AU15", "a12a15"}},
         {"A12LA15", {"A12LA15", "AU12_L+AU15"}},
         {"HAPPY", {"HAPPY", "happy", "E_HAPPY", "joy"}}};
@@ -95,10 +96,15 @@ TEST(FacsCatalogue, reads_every_way_in_which_mimik_spells_an_expression_as_one) 
         for (const auto& word : words) {
             EXPECT_EQ(builtin_catalogue().code(word), code) << word;
             // What a model, a morph target and a picture are called can be typed back.
-            EXPECT_EQ(builtin_catalogue().code(expression_name(builtin_catalogue(), word)),
-                      code == "12LW" ? "12" : code)
-                << word;
+            EXPECT_EQ(builtin_catalogue().code(expression_name(builtin_catalogue(), word)), code) << word;
         }
+}
+
+TEST(FacsCatalogue, names_low_intensity_apart_from_the_full_motion) {
+    EXPECT_EQ(expression_name(builtin_catalogue(), "12LW"), "AU12_LW");
+    EXPECT_EQ(expression_name(builtin_catalogue(), "A12LWA15L"), "AU12_LW+AU15_L");
+    EXPECT_EQ(arkit_name(builtin_catalogue(), "17"), "mouthShrugLower");
+    EXPECT_EQ(arkit_name(builtin_catalogue(), "17LW"), "AU17_LW");
 }
 
 TEST(FacsCatalogue, refuses_what_is_no_expression_and_says_what_is) {
