@@ -293,6 +293,12 @@ void add_remarks(std::vector<std::string>& remarks, const std::vector<std::strin
         if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
 }
 
+void add_left_out(ComparisonFigure& figure, const ExpressionModel& model) {
+    std::vector<std::string> remarks;
+    for (const auto& reason : model.left_out) remarks.push_back(fmt::format("{}: {}", model.expression, reason));
+    add_remarks(figure.remarks, remarks);
+}
+
 void add_unusable(ComparisonFigure& figure, const ExpressionModel& model) {
     for (const auto& scan : model.unusable_scans)
         figure.failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression, scan));
@@ -392,7 +398,7 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
         figure.scale_mm = std::max(figure.scale_mm, quantile(person.scored->nothing_mm, 0.99));
         figure.people.push_back(person.compared);
     }
-    add_remarks(figure.remarks, model.left_out);
+    add_left_out(figure, model);
 
     FigureFolder out(folder, request);
     for (const auto& person : people) add_person(out, person, request, figure.scale_mm);
@@ -444,7 +450,7 @@ ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCa
         const auto model = modeling::model_from_workspace(workspace, catalogue, expression,
                                                           source_of(workspace, request), request.method.model);
         words.push_back(expression_words(catalogue, expression));
-        add_remarks(figure.remarks, model.left_out);
+        add_left_out(figure, model);
         add_unusable(figure, model);
         for (const double magnitude : magnitudes) {
             const auto animated = animated_face(face, model, request.method, magnitude);

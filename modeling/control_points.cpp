@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "geometry/errors.h"
 #include "preprocessing/workspace.h"
@@ -91,7 +90,7 @@ double ExpressionZone::distance(const Point& position_mm) const {
 }
 
 PlacedControls place_controls(const FacsCatalogue& catalogue, const std::string& expression, const Landmarks& landmarks,
-                              const geometry::SurfaceIndex& surface) {
+                              const geometry::SurfaceIndex& surface, const PlacedKinds& kinds) {
     PlacedControls placed;
     const double unit = eye_distance_mm(landmarks);
     const auto& sampling = catalogue.sampling();
@@ -127,22 +126,25 @@ PlacedControls place_controls(const FacsCatalogue& catalogue, const std::string&
     const ExpressionZone zone(catalogue, expression, landmarks);
     const Point origin = landmarks.position_mm("nose_tip");
     const double reach_mm = 2.2 * unit;
-    std::vector<std::string> off_the_face;
-    hexagonal_lattice(origin, sampling.coverage_spacing * unit, reach_mm, [&](int row, int col, Point p) {
-        if (zone.distance(p) > 0) return;
-        auto name = fmt::format("coverage_{}_{}", row, col);
-        if (!drop_on_surface(surface, p))
-            off_the_face.push_back(std::move(name));
-        else if (!near(placed.controls, p, apart_mm))
-            placed.controls.push_back({std::move(name), ControlKind::coverage, p});
-    });
-    if (!off_the_face.empty())
-        placed.left_out.push_back(fmt::format("{}: off the face", fmt::join(off_the_face, ", ")));
-    // The anchors' lattice reaches beyond every face: what meets none is no loss worth a word.
-    hexagonal_lattice(origin, sampling.anchor_spacing * unit, reach_mm, [&](int row, int col, Point p) {
-        if (zone.distance(p) < sampling.anchor_margin || !drop_on_surface(surface, p)) return;
-        placed.anchors.push_back({fmt::format("anchor_{}_{}", row, col), ControlKind::anchor, p});
-    });
+    if (kinds.coverage) {
+        std::size_t in_zone = 0, off_the_face = 0;
+        hexagonal_lattice(origin, sampling.coverage_spacing * unit, reach_mm, [&](int row, int col, Point p) {
+            if (zone.distance(p) > 0) return;
+            ++in_zone;
+            if (!drop_on_surface(surface, p))
+                ++off_the_face;
+            else if (!near(placed.controls, p, apart_mm))
+                placed.controls.push_back({fmt::format("coverage_{}_{}", row, col), ControlKind::coverage, p});
+        });
+        if (2 * off_the_face > in_zone)
+            placed.left_out.push_back(fmt::format("{} of {} coverage points meet no surface", off_the_face, in_zone));
+    }
+    // The anchors' lattice reaches beyond every face, too: what meets none is no loss worth a word.
+    if (kinds.anchors)
+        hexagonal_lattice(origin, sampling.anchor_spacing * unit, reach_mm, [&](int row, int col, Point p) {
+            if (zone.distance(p) < sampling.anchor_margin || !drop_on_surface(surface, p)) return;
+            placed.anchors.push_back({fmt::format("anchor_{}_{}", row, col), ControlKind::anchor, p});
+        });
     return placed;
 }
 

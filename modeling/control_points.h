@@ -21,7 +21,15 @@ struct ControlPoint {
 struct PlacedControls {
     std::vector<ControlPoint> controls;  ///< muscle, wrinkle and coverage points
     std::vector<ControlPoint> anchors;
-    std::vector<std::string> left_out;  ///< name and reason: off the face, landmark missing, on top of another
+    /// Catalogue points by name with the reason (off the face, on top of another); coverage points by their number, and
+    /// only where most of them meet no surface: their lattice reaches beyond every face's rim.
+    std::vector<std::string> left_out;
+};
+
+/// What is placed beside the catalogue's own points.
+struct PlacedKinds {
+    bool coverage = true;
+    bool anchors = true;
 };
 
 /// Places the points of an expression on a face: catalogue points, coverage points on a hexagonal lattice inside the
@@ -29,8 +37,8 @@ struct PlacedControls {
 /// and the landmarks' frame alone, so that points of one name correspond between faces.
 /// @param expression  "12", "4L", "HAPPY", ... @throws InputError if it or a landmark it needs is unknown.
 [[nodiscard]] PlacedControls place_controls(const FacsCatalogue& catalogue, const std::string& expression,
-                                            const geometry::Landmarks& landmarks,
-                                            const geometry::SurfaceIndex& surface);
+                                            const geometry::Landmarks& landmarks, const geometry::SurfaceIndex& surface,
+                                            const PlacedKinds& kinds = {});
 
 /// How far outside the expression's zones a point is, in outer-eye distances; negative inside.
 class ExpressionZone {

@@ -87,10 +87,13 @@ double mouth_width(const Landmarks& landmarks) {
     return (landmarks.position_mm("mouth_corner_left") - landmarks.position_mm("mouth_corner_right")).norm();
 }
 
+PlacedKinds placed_kinds(const ModelOptions& options) {
+    return {.coverage = options.coverage_points, .anchors = options.anchors};
+}
+
+/// Wrinkle points are placed in any case: where they stand there is no coverage point.
 bool wanted(ControlKind kind, const ModelOptions& options) {
-    if (kind == ControlKind::wrinkle) return options.wrinkle_points;
-    if (kind == ControlKind::coverage) return options.coverage_points;
-    return true;
+    return kind != ControlKind::wrinkle || options.wrinkle_points;
 }
 
 /// Whether a unit of one half of the face has a zone centred in the other: a cheek raiser, upper face by FACS, moves
@@ -120,7 +123,7 @@ ExpressionGauge::ExpressionGauge(const FacsCatalogue& catalogue, const std::stri
     begun_.frame = options_.frame;
     if (!options_.place_on_average) return;
     const geometry::SurfaceIndex surface(average.grid.vertices_mm, geometry::triangles(average.grid));
-    on_average_ = place_controls(catalogue, expression, average.landmarks, surface);
+    on_average_ = place_controls(catalogue, expression, average.landmarks, surface, placed_kinds(options_));
 }
 
 ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expressive,
@@ -153,7 +156,8 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
             anchors_on_source.push_back(
                 neutral_surface.nearest(source_from_average(anchor.position_mm), options.snap_to_vertices));
     } else {
-        placed = place_controls(catalogue_, expression_, neutral_marks, neutral_surface.surface());
+        placed =
+            place_controls(catalogue_, expression_, neutral_marks, neutral_surface.surface(), placed_kinds(options));
         model.landmarks = neutral_marks;
         for (auto& control : placed.controls) {
             control.position_mm = neutral_surface.nearest(control.position_mm, options.snap_to_vertices);
@@ -167,15 +171,14 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     preprocessing::ControlPairs pairs(neutral_marks, expressive_marks);
     for (const auto& merged : pairs.merged())
         model.left_out.push_back(fmt::format("{}: landmark {}", neutral.id.name(), merged));
-    if (options.anchors)
-        for (std::size_t k = 0; k < placed.anchors.size(); ++k)
-            pairs.add(placed.anchors[k].name, anchors_on_source[k], anchors_on_source[k]);
+    for (std::size_t k = 0; k < placed.anchors.size(); ++k)
+        pairs.add(placed.anchors[k].name, anchors_on_source[k], anchors_on_source[k]);
     const auto expressive_from_neutral = pairs.fit(spline);
 
     // Exactly so many: an experiment holds the models of all its sources.
     const auto taken = std::count_if(placed.controls.begin(), placed.controls.end(),
                                      [&](const ControlPoint& control) { return wanted(control.kind, options); });
-    model.points.reserve(static_cast<std::size_t>(taken) + (options.anchors ? placed.anchors.size() : 0));
+    model.points.reserve(static_cast<std::size_t>(taken) + placed.anchors.size());
     for (std::size_t k = 0; k < placed.controls.size(); ++k) {
         const auto& control = placed.controls[k];
         if (!wanted(control.kind, options)) continue;
@@ -187,9 +190,8 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
             followed->push_back({control.name, control.kind, to_average.inverse() * controls_on_source[k],
                                  to_average_too.inverse() * found});
     }
-    if (options.anchors)
-        for (const auto& anchor : placed.anchors)
-            model.points.push_back({anchor.name, ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
+    for (const auto& anchor : placed.anchors)
+        model.points.push_back({anchor.name, ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
     return model;
 }
 

@@ -191,6 +191,28 @@ TEST_F(ComparisonPanels, the_thesis_method_draws_its_own_points_and_no_coverage)
     EXPECT_EQ(comparison_name(catalogue(), request), "AU12_bs000_on_bs001_thesis");
 }
 
+TEST_F(ComparisonPanels, a_note_on_a_point_begins_with_the_expression_and_none_tells_of_the_lattices_rim) {
+    auto units = catalogue().units();
+    for (auto& unit : units)
+        if (unit.number == 12) unit.points.front().placement.up += 3;  // outer-eye distances: above every head
+    const modeling::FacsCatalogue beyond(catalogue().sampling(), units, {});
+    const auto note = "AU12_L: AU12." + beyond.find(12)->points.front().name + "_left: off the face";
+    auto request = smile("bs000", "bs001");
+    request.expression = "12L";
+    for (const auto* method : {"default", "thesis"}) {
+        request.method = method_by_name(method);
+        EXPECT_THAT(write_comparison_panels(*workspace_, beyond, request, out("notes")).remarks,
+                    testing::UnorderedElementsAre(note, HasSubstr("was taken from one side of"),
+                                                  HasSubstr("has no scan of expression")))
+            << method;
+        const std::vector<std::string> expressions = {"12L"};
+        const std::vector<double> magnitudes = {1};
+        EXPECT_THAT(write_magnitude_series(*workspace_, beyond, request, expressions, magnitudes, out("notes")).remarks,
+                    ElementsAre(note))
+            << method;
+    }
+}
+
 TEST_F(ComparisonPanels, a_target_without_that_scan_is_shown_without_comparison_and_a_word_about_it) {
     const database::TemporaryFolder folder;
     test::write_analytic_scan(folder.path() / "db", "bs003_N_N_0", {1.02, 0}, test::analytic_pose(1));

@@ -138,14 +138,48 @@ TEST(ControlPoints, of_the_thesis_number_12_to_26_for_each_of_its_units) {
     }
 }
 
+/// A flat scan 150 mm wide from `low_mm` up.
+geometry::SurfaceIndex flat_scan(double low_mm) {
+    std::vector<Point> vertices;
+    for (const double y : {low_mm, 95.0})
+        for (const double x : {-75.0, 75.0}) vertices.emplace_back(x, y, 0.0);
+    return {vertices, std::vector<geometry::Triangle>{{0, 1, 3}, {0, 3, 2}}};
+}
+
 TEST(ControlPoints, off_the_surface_are_left_out_by_name) {
     // A scan that ends at the mouth corners' height: what lies below is not there to be moved.
-    std::vector<Point> vertices;
-    for (const double y : {-35.0, 95.0})
-        for (const double x : {-75.0, 75.0}) vertices.emplace_back(x, y, 0.0);
-    const geometry::SurfaceIndex upper(vertices, std::vector<geometry::Triangle>{{0, 1, 3}, {0, 3, 2}});
-    const auto placed = place_controls(builtin_catalogue(), "15", reference_landmarks(), upper);
+    const auto placed = place_controls(builtin_catalogue(), "15", reference_landmarks(), flat_scan(-35.0));
     EXPECT_THAT(placed.left_out, testing::Contains("AU15.triangularis_low_left: off the face"));
+}
+
+TEST(ControlPoints, of_the_coverage_are_counted_and_only_where_most_meet_no_surface) {
+    const auto notes = [](double low_mm, const PlacedKinds& kinds) {
+        auto left_out =
+            place_controls(builtin_catalogue(), "15", reference_landmarks(), flat_scan(low_mm), kinds).left_out;
+        std::erase_if(left_out, [](const std::string& note) { return note.find("coverage") == std::string::npos; });
+        return left_out;
+    };
+    // AU15's zone reaches from below the mouth corners to the chin's rim: a scan that ends above it has none of it.
+    const auto lost = notes(20.0, {});
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_THAT(lost.front(), testing::MatchesRegex("[0-9]+ of [0-9]+ coverage points meet no surface"));
+    EXPECT_THAT(notes(20.0, {.coverage = false}), testing::IsEmpty());
+    EXPECT_THAT(notes(-200.0, {}), testing::IsEmpty());
+}
+
+TEST(ControlPoints, of_a_kind_that_is_not_wanted_are_not_placed_and_the_others_stay_where_they_were) {
+    const auto surface = bowl();
+    const auto all = place_controls(builtin_catalogue(), "12", reference_landmarks(), surface);
+    const auto few = place_controls(builtin_catalogue(), "12", reference_landmarks(), surface,
+                                    {.coverage = false, .anchors = false});
+    EXPECT_THAT(few.anchors, testing::IsEmpty());
+    ASSERT_LT(few.controls.size(), all.controls.size());
+    for (std::size_t k = 0; k < few.controls.size(); ++k) {
+        EXPECT_NE(few.controls[k].kind, ControlKind::coverage);
+        EXPECT_EQ(few.controls[k].name, all.controls[k].name);
+        EXPECT_EQ(few.controls[k].position_mm, all.controls[k].position_mm);
+    }
+    EXPECT_EQ(all.controls[few.controls.size()].kind, ControlKind::coverage);
 }
 
 TEST(ExpressionZone, holds_the_part_that_moves_and_not_the_rest) {
