@@ -95,7 +95,10 @@ void ScoreSum::add(const CaseResult& result) {
     nothing_ += result.zone_nothing_mm;
     whole_ += result.whole_mm;
     whole_nothing_ += result.whole_nothing_mm;
-    sums_.largest_step_mm += result.step_mm;
+    if (result.step_mm) {
+        steps_ += *result.step_mm;
+        ++with_step_;
+    }
     sums_.left_out_vertices += result.left_out;
     if (result.true_mm >= 0) {
         true_error_ += result.true_mm;
@@ -115,7 +118,7 @@ Score ScoreSum::score() const {
     score.explained_whole = whole_nothing_ > 0 ? 1 - whole_ / whole_nothing_ : 0;
     score.error_mm = error_ / n;
     score.nothing_mm = nothing_ / n;
-    score.largest_step_mm /= n;
+    if (with_step_ > 0) score.largest_step_mm = steps_ / static_cast<double>(with_step_);
     if (with_truth_ > 0) {
         score.true_error_mm = true_error_ / static_cast<double>(with_truth_);
         score.nothing_true_mm = true_nothing_ / static_cast<double>(with_truth_);

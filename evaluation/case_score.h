@@ -32,7 +32,8 @@ struct ScoredTarget {
 /// One method on one case; means over the scored vertices.
 struct CaseResult {
     double zone_mm = 0, zone_nothing_mm = 0, whole_mm = 0, whole_nothing_mm = 0;
-    double true_mm = -1, true_nothing_mm = -1, step_mm = 0;
+    double true_mm = -1, true_nothing_mm = -1;
+    std::optional<double> step_mm;  ///< largest crack of an animated face; a true field or no answer has none
     std::size_t left_out = 0;
 };
 
@@ -45,7 +46,7 @@ struct Score {
     double nothing_mm = 0.0;
     double true_error_mm = -1.0;  ///< mean 3D distance to the true position of the same material point; -1: no truth
     double nothing_true_mm = -1.0;
-    double largest_step_mm = 0.0;  ///< largest crack between neighbouring vertices, mean over cases
+    std::optional<double> largest_step_mm;  ///< largest crack between neighbouring vertices, mean over cases with one
     std::size_t cases = 0;
     std::size_t worse_than_nothing = 0;
     std::size_t left_out_vertices = 0;  ///< scored as doing nothing
@@ -69,9 +70,9 @@ public:
     [[nodiscard]] Score score() const;
 
 private:
-    Score sums_;  // its counts and the sum of the steps
-    double error_ = 0, nothing_ = 0, whole_ = 0, whole_nothing_ = 0, true_error_ = 0, true_nothing_ = 0;
-    std::size_t with_truth_ = 0;
+    Score sums_;  // its counts
+    double error_ = 0, nothing_ = 0, whole_ = 0, whole_nothing_ = 0, true_error_ = 0, true_nothing_ = 0, steps_ = 0;
+    std::size_t with_truth_ = 0, with_step_ = 0;
     BoundedMedian explained_;
 };
 

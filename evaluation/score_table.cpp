@@ -96,11 +96,12 @@ std::string to_csv(const ExperimentReport& report) {
     for (const auto& row : report.rows)
         for (const auto& expression : report.expressions) {
             const auto& s = row.per_expression.at(expression);
-            text += fmt::format("\"{}\",{},{},{},{:.6f},{:.6f},{},{:.6f},{:.6f},{},{},{:.6f},{},{},{}\n", row.method,
+            text += fmt::format("\"{}\",{},{},{},{:.6f},{:.6f},{},{:.6f},{:.6f},{},{},{},{},{},{}\n", row.method,
                                 kind_name(row.kind), row.reference ? 1 : 0, expression, s.explained, s.explained_median,
                                 report.whole_face ? fmt::format("{:.6f}", s.explained_whole) : "", s.error_mm,
                                 s.nothing_mm, optional_number(s.true_error_mm), optional_number(s.nothing_true_mm),
-                                s.largest_step_mm, s.cases, s.worse_than_nothing, s.left_out_vertices);
+                                s.largest_step_mm ? fmt::format("{:.6f}", *s.largest_step_mm) : "", s.cases,
+                                s.worse_than_nothing, s.left_out_vertices);
         }
     return text;
 }
@@ -111,15 +112,16 @@ std::string to_json(const ExperimentReport& report) {
     for (const auto& row : report.rows) {
         nlohmann::json scores;
         for (const auto& [expression, s] : row.per_expression) {
-            scores[expression] = {{"explained", s.explained},
-                                  {"explained_median", s.explained_median},
-                                  {"explained_whole_face", whole(s.explained_whole)},
-                                  {"error_mm", s.error_mm},
-                                  {"nothing_mm", s.nothing_mm},
-                                  {"largest_step_mm", s.largest_step_mm},
-                                  {"cases", s.cases},
-                                  {"worse_than_nothing", s.worse_than_nothing},
-                                  {"left_out_vertices", s.left_out_vertices}};
+            scores[expression] = {
+                {"explained", s.explained},
+                {"explained_median", s.explained_median},
+                {"explained_whole_face", whole(s.explained_whole)},
+                {"error_mm", s.error_mm},
+                {"nothing_mm", s.nothing_mm},
+                {"largest_step_mm", s.largest_step_mm ? nlohmann::json(*s.largest_step_mm) : nlohmann::json()},
+                {"cases", s.cases},
+                {"worse_than_nothing", s.worse_than_nothing},
+                {"left_out_vertices", s.left_out_vertices}};
             const auto known = [](double value) { return value < 0 ? nlohmann::json() : nlohmann::json(value); };
             scores[expression]["true_error_mm"] = known(s.true_error_mm);
             scores[expression]["nothing_true_mm"] = known(s.nothing_true_mm);

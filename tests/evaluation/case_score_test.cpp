@@ -122,6 +122,14 @@ TEST_F(CaseScore, a_zone_that_nothing_sees_is_no_case) {
     EXPECT_THROW((void)judge(still_), NumericalError);
 }
 
+TEST(ScoreSum, takes_the_mean_step_over_the_cases_that_have_one) {
+    CaseResult small, large, without;
+    small.step_mm = 1;
+    large.step_mm = 4;
+    EXPECT_EQ(summarise_cases({small, without, large}).largest_step_mm, 2.5);
+    EXPECT_EQ(summarise_cases({without, without}).largest_step_mm, std::nullopt);
+}
+
 TEST(ScoreSum, of_no_case_is_zero_and_says_so) { EXPECT_EQ(summarise_cases({}).cases, 0U); }
 
 }  // namespace

@@ -162,6 +162,16 @@ TEST_F(Experiment, a_whole_face_that_was_not_scored_is_no_figure_in_any_table) {
     EXPECT_THAT(to_markdown(*report_), testing::Not(testing::ContainsRegex("[|] default [|].*[|]  [|] [0-9.]+ % of")));
 }
 
+TEST_F(Experiment, a_true_field_has_no_largest_step_in_any_table) {
+    for (const auto& row_json : nlohmann::json::parse(to_json(*report_)).at("rows"))
+        EXPECT_EQ(row_json.at("expressions").at("12").at("largest_step_mm").is_null(), row_json.at("reference"))
+            << row_json.at("method");
+    const auto csv = to_csv(*report_);
+    // Of the 15 columns the 12th, before cases, cases worse than nothing and vertices left out.
+    EXPECT_THAT(csv, testing::ContainsRegex("\"true field, mean\",.*,,3,[0-9]+,[0-9]+\n"));
+    EXPECT_THAT(csv, testing::ContainsRegex("\"mean\",.*,[0-9.]+,3,[0-9]+,[0-9]+\n"));
+}
+
 TEST_F(Experiment, fewer_sources_are_fewer_cases) {
     auto options = smile_options();
     options.max_sources = 1;

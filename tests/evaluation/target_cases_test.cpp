@@ -105,7 +105,9 @@ TEST_F(ScoreTarget, a_case_whose_method_gives_no_answer_counts_as_doing_nothing_
         EXPECT_EQ(result.whole_mm, nothing.whole_nothing_mm);
         EXPECT_EQ(result.true_mm, nothing.true_nothing_mm);
         EXPECT_EQ(result.true_nothing_mm, nothing.true_nothing_mm);
+        EXPECT_EQ(result.step_mm, std::nullopt);
     }
+    EXPECT_EQ(nothing.step_mm, 0.0);  // it did answer
     EXPECT_THAT(failures_.sorted(),
                 ElementsAre(HasSubstr("bs001 -> bs000 by default"), HasSubstr("bs002 -> bs000 by default"),
                             HasSubstr("mean -> bs000 by mean")));
