@@ -83,6 +83,11 @@ ActiveZone active_zone_from_catalogue(const std::string& expression, const Avera
     return zone;
 }
 
+void unite(ActiveZone& zone, const ActiveZone& other) {
+    for (std::size_t v = 0; v < zone.active.size(); ++v)
+        if (other.active[v]) zone.active[v] = 1;
+}
+
 std::vector<char> carry_zone(const ActiveZone& zone, const AverageFace& average, const Face& face) {
     const auto nearest = preprocessing::nearest_on_average(face, average);
     std::vector<char> active(face.grid.size(), 0);

@@ -47,6 +47,9 @@ private:
                                                     const preprocessing::AverageFace& average,
                                                     const modeling::FacsCatalogue& catalogue);
 
+/// Adds what is active in the other zone. The displacement stays the first one's own.
+void unite(ActiveZone& zone, const ActiveZone& other);
+
 /// The zone on a face's own grid: every vertex goes to the average face by the landmark spline and takes what the
 /// nearest average vertex has. Vertices outside the face, or farther than 5 mm off the average face's rim, are not
 /// active.

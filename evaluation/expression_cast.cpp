@@ -1,6 +1,7 @@
 #include "evaluation/expression_cast.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,62 @@ std::shared_ptr<const TrueFields::Field> TrueFields::of(std::size_t k) const {
 
 namespace {
 
+/// In batches, and within a batch one face per thread: only what `keep` keeps stays, in the order of the scans.
+template <typename Take, typename Keep>
+void in_batches(std::span<const ScanId> scans, const Take& take, const Keep& keep) {
+    constexpr std::size_t batch = 16;
+    for (std::size_t begin = 0; begin < scans.size(); begin += batch) {
+        std::vector<std::invoke_result_t<Take, const ScanId&>> taken(std::min(batch, scans.size() - begin));
+        geometry::parallel_for(taken.size(), 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k) taken[k] = take(scans[begin + k]);
+        });
+        for (auto& one : taken) keep(one);
+    }
+}
+
+std::vector<Vector> true_motion(const PerformanceReader& reader, const Performance& own) {
+    return true_motion_on_average(reader.workspace().average(), own.neutral, *own.true_neutral,
+                                  own.true_expression->displacement_mm);
+}
+
+/// Of one AU of an expression that `performances` show.
+ActiveZone zone_of_unit(const PerformanceReader& reader, const modeling::FacsCatalogue& catalogue,
+                        const std::string& expression, const std::string& unit, std::span<const ScanId> performances,
+                        FailureList& failures) {
+    std::vector<ScanId> scans;
+    for (const auto& performance : performances)
+        if (auto id = reader.workspace().expression(performance.subject, unit)) scans.push_back(std::move(*id));
+    TrueZone zone(reader.workspace().average());
+    bool any = false;
+    in_batches(
+        scans,
+        [&](const ScanId& id) -> std::vector<Vector> {
+            try {
+                return true_motion(reader, reader.read(id));
+            } catch (const std::exception& e) {
+                failures.add(fmt::format("{}: takes no part in the zone of {}: {}", id.name(), expression, e.what()));
+                return {};
+            }
+        },
+        [&](const std::vector<Vector>& motion_mm) {
+            if (motion_mm.empty()) return;
+            zone.add(motion_mm);
+            any = true;
+        });
+    return any ? zone.zone(unit) : active_zone_from_catalogue(unit, reader.workspace().average(), catalogue);
+}
+
+void add_zones_of_units(ActiveZone& zone, const PerformanceReader& reader, const modeling::FacsCatalogue& catalogue,
+                        std::span<const ScanId> performances, FailureList& failures) {
+    const auto units = catalogue.resolve(zone.expression);
+    if (units.size() < 2) return;
+    for (const auto& [unit, side] : units) {
+        const char* of_side = side == database::Side::both ? "" : side == database::Side::left ? "L" : "R";
+        unite(zone, zone_of_unit(reader, catalogue, zone.expression, fmt::format("{}{}", unit->number, of_side),
+                                 performances, failures));
+    }
+}
+
 /// What is taken from one performance before it is dropped.
 struct Taken {
     std::optional<Participant> participant;
@@ -65,9 +122,7 @@ public:
         Performance own;
         try {
             own = reader_.read(id);
-            if (own.true_expression)
-                taken.true_motion_mm = true_motion_on_average(reader_.workspace().average(), own.neutral,
-                                                              *own.true_neutral, own.true_expression->displacement_mm);
+            if (own.true_expression) taken.true_motion_mm = true_motion(reader_, own);
         } catch (const std::exception& e) {
             failures_.add(fmt::format("{}: takes part in no case: {}", id.name(), e.what()));
             return taken;
@@ -102,24 +157,20 @@ ExpressionCast gather_cast(const PerformanceReader& reader, const modeling::Facs
     const Gathering gathering(reader, catalogue, expression, methods, failures);
     ExpressionCast cast{expression, {}, {}, TrueFields(reader)};
     TrueZone zone(average);
-    // In batches, and within a batch one face per thread: only sums and models stay, added in the order of the scans.
-    constexpr std::size_t batch = 16;
-    for (std::size_t begin = 0; begin < performances.size(); begin += batch) {
-        std::vector<Taken> taken(std::min(batch, performances.size() - begin));
-        geometry::parallel_for(taken.size(), 1, [&](std::size_t first, std::size_t last) {
-            for (std::size_t k = first; k < last; ++k) taken[k] = gathering.take(performances[begin + k]);
-        });
-        for (auto& own : taken) {
-            if (!own.participant) continue;
+    in_batches(
+        performances, [&](const ScanId& id) { return gathering.take(id); },
+        [&](Taken& own) {
+            if (!own.participant) return;
             if (reader.has_truth()) zone.add(own.true_motion_mm);
             if (keep_true_fields) cast.true_fields.add(own.participant->id, std::move(own.true_field_mm));
             cast.participants.push_back(std::move(*own.participant));
-        }
-    }
-    if (!reader.has_truth())
+        });
+    if (!reader.has_truth()) {
         cast.zone = active_zone_from_catalogue(expression, average, catalogue);
-    else if (!cast.participants.empty())
+    } else if (!cast.participants.empty()) {
         cast.zone = zone.zone(expression);
+        add_zones_of_units(cast.zone, reader, catalogue, performances, failures);
+    }
     return cast;
 }
 

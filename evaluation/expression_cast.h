@@ -52,7 +52,9 @@ struct ExpressionCast {
     TrueFields true_fields;  ///< parallel to `participants`; empty without a truth, or where they are not wanted
 };
 
-/// Reads `performances` a few at a time, measures their models and the zone. Who cannot be read takes no part, who
+/// Reads `performances` a few at a time, measures their models and the zone. With a truth, an expression of several AUs
+/// (an emotion) has the union of its own zone and of its AUs': of each the true one over the same subjects' scans of
+/// that AU alone, or the one that the catalogue draws where nobody shows it. Who cannot be read takes no part, who
 /// cannot be measured is no source of that method; both are added to `failures`.
 [[nodiscard]] ExpressionCast gather_cast(const PerformanceReader& reader, const modeling::FacsCatalogue& catalogue,
                                          const std::string& expression, std::span<const database::ScanId> performances,

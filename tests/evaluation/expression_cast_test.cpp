@@ -2,8 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "geometry/file.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_truth.h"
 #include "tests/support/analytic_workspace_files.h"
@@ -73,6 +75,47 @@ TEST_F(Cast, of_more_than_one_batch_is_in_the_order_of_the_scans) {
         EXPECT_EQ(cast.participants[k].models[0]->sources.back(), scans[k].name());
         EXPECT_FALSE(cast.participants[k].models[1]);  // shared with the first
     }
+}
+
+/// Three subjects whose HAPPY is the smile of their left half alone: AU12 moves both halves, nobody shows AU6.
+TEST(CastOfEmotion, has_the_zones_of_its_units_beside_its_own) {
+    const database::TemporaryFolder folder;
+    const auto db = folder.path() / "db";
+    test::write_analytic_truth(db);
+    auto document = nlohmann::json::parse(geometry::read_text(db / "truth" / "truth.json"));
+    for (int k = 0; k < 3; ++k) {
+        const auto name = "bs00" + std::to_string(k) + "_E_HAPPY_0";
+        const test::AnalyticFace shape{test::analytic_scales[k], test::analytic_smile_mm};
+        test::write_analytic_scan(db, name, shape, test::analytic_pose(k));
+        auto truth = test::analytic_truth(name, shape, test::analytic_pose(k));
+        for (std::size_t v = 0; v < truth.vertices_mm.size(); ++v)
+            if ((truth.scanner_from_head.inverse() * truth.vertices_mm[v]).x() < 0) truth.displacement_mm[v].setZero();
+        synthesis::write_true_scan(db / "truth", truth);
+        document["scans"].push_back(name);
+    }
+    geometry::write_atomically(db / "truth" / "truth.json", document.dump());
+    const auto workspace = test::analytic_workspace(folder.path());
+    const PerformanceReader reader(workspace);
+    FailureList failures;
+    const auto zone_of = [&](const std::string& expression) {
+        std::vector<database::ScanId> scans;
+        for (const auto& subject : workspace.subjects()) scans.push_back(*workspace.expression(subject, expression));
+        return gather_cast(reader, modeling::builtin_catalogue(), expression, scans, {}, false, failures).zone.active;
+    };
+    const auto happy = zone_of("HAPPY"), smile = zone_of("12");
+    const auto& average = workspace.average();
+    const auto cheeks = active_zone_from_catalogue("6", average, modeling::builtin_catalogue()).active;
+    ASSERT_EQ(happy.size(), smile.size());
+    std::size_t only_smile = 0, only_cheeks = 0;
+    for (std::size_t v = 0; v < happy.size(); ++v) {
+        EXPECT_EQ(happy[v] != 0, smile[v] != 0 || cheeks[v] != 0) << v;  // its own zone lies inside that of AU12
+        if (!happy[v]) continue;
+        if (!cheeks[v] && average.grid.vertices_mm[v].x() < -5) ++only_smile;
+        if (!smile[v]) ++only_cheeks;
+    }
+    EXPECT_GT(only_smile, 20U);  // a corner's bump is 24 mm wide, the grid's cells 2 to 3 mm
+    EXPECT_GT(only_cheeks, 20U);
+    EXPECT_TRUE(failures.sorted().empty());
 }
 
 TEST_F(Cast, without_true_fields_wanted_holds_none) {
