@@ -1,5 +1,7 @@
 #include "evaluation/score_table.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -25,6 +27,13 @@ Pooled pooled(const MethodScores& row) {
         total.worse += score.worse_than_nothing;
     }
     return total;
+}
+
+bool tells_true_errors(const ExperimentReport& report) {
+    return std::any_of(report.rows.begin(), report.rows.end(), [](const MethodScores& row) {
+        return std::any_of(row.per_expression.begin(), row.per_expression.end(),
+                           [](const auto& entry) { return entry.second.true_error_mm >= 0; });
+    });
 }
 
 std::string optional_number(double value) { return value < 0 ? "" : fmt::format("{:.6f}", value); }
@@ -56,9 +65,8 @@ std::string to_markdown(const ExperimentReport& report) {
                         total.cases ? 100.0 * static_cast<double>(total.worse) / static_cast<double>(total.cases) : 0.0,
                         total.cases);
     }
-    text +=
-        "\nMean error in mm (distance to the real scan / to the true position of the same skin point):\n\n| method | "
-        "kind |";
+    text += fmt::format("\nMean error in mm (distance to the real scan{}):\n\n| method | kind |",
+                        tells_true_errors(report) ? " / to the true position of the same skin point" : "");
     for (const auto& expression : report.expressions) text += fmt::format(" {} |", label(expression));
     text += "\n| --- | --- |";
     for (std::size_t k = 0; k < report.expressions.size(); ++k) text += " ---: |";

@@ -130,6 +130,7 @@ TEST_F(Experiment, the_tables_hold_what_the_report_holds) {
     const auto markdown = to_markdown(*report_);
     EXPECT_THAT(markdown, HasSubstr("| AU12 |"));
     EXPECT_THAT(markdown, HasSubstr("| doing nothing | |"));
+    EXPECT_THAT(markdown, HasSubstr("(distance to the real scan / to the true position of the same skin point):"));
     EXPECT_THAT(markdown, HasSubstr("| *true field, one source* |"));
 }
 
@@ -246,6 +247,8 @@ TEST_F(Experiment, a_damaged_face_and_a_hidden_subject_take_no_part_and_the_rest
     ASSERT_EQ(report.failures.size(), 1U);
     EXPECT_THAT(report.failures[0], HasSubstr("bs001_LFAU_12_0: takes part in no case"));
     EXPECT_THAT(to_markdown(report), HasSubstr("1 failure(s)"));
+    // One number per cell, and the heading promises no other.
+    EXPECT_THAT(to_markdown(report), HasSubstr("Mean error in mm (distance to the real scan):"));
     EXPECT_TRUE(nlohmann::json::parse(to_json(report))
                     .at("rows")
                     .at(0)
