@@ -106,6 +106,7 @@ public:
         report_.whole_face = options.whole_face;
         report_.zones = reader_.has_truth() ? "truth" : "catalogue";
         report_.alignment = reader_.has_truth() ? "true pose" : "ICP on the stable region";
+        report_.truth = reader_.truth_origin();
         for (const auto& method : options.methods) add_row(method.name, method.kind, false);
         if (!with_reference()) return;
         add_row("true field, one source", RowKind::one_source, true);

@@ -8,6 +8,7 @@
 
 #include "evaluation/case_score.h"
 #include "evaluation/method.h"
+#include "evaluation/performance.h"
 #include "modeling/facs_catalogue.h"
 #include "preprocessing/workspace.h"
 
@@ -39,6 +40,7 @@ struct ExperimentReport {
     bool whole_face = true;  ///< whether the whole face was scored
     std::string zones;       ///< "truth" or "catalogue"
     std::string alignment;   ///< "true pose" or "ICP on the stable region"
+    std::optional<TruthOrigin> truth;
     std::vector<MethodScores> rows;
     std::vector<std::string> failures;  ///< what gave no answer, with the reason
     double seconds = 0.0;

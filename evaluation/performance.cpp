@@ -23,6 +23,11 @@ PerformanceReader::PerformanceReader(const preprocessing::Workspace& workspace) 
                         file.string(), workspace.root().string(), workspace.root().string()));
 }
 
+std::optional<TruthOrigin> PerformanceReader::truth_origin() const {
+    if (!truth_) return std::nullopt;
+    return TruthOrigin{truth_->seed, truth_->face_model};
+}
+
 void PerformanceReader::check_neutral(const std::string& subject) const {
     const auto neutral = workspace_.face(workspace_.neutral(subject));
     (void)preprocessing::landmark_spline(workspace_.average().landmarks, neutral.landmarks);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -19,6 +20,12 @@ struct Performance {
     std::optional<synthesis::TrueScan> true_expression;  ///< displacement_mm from the neutral scan
 };
 
+/// Which random numbers and faces a database with a truth was made of.
+struct TruthOrigin {
+    std::uint64_t seed = 0;
+    std::string face_model;
+};
+
 /// Reads performances from a workspace, and their truth from its database if that has one. An experiment reads a face
 /// when somebody needs it and drops it afterwards: memory does not grow with the database. From any thread.
 class PerformanceReader {
@@ -29,6 +36,7 @@ public:
 
     [[nodiscard]] const preprocessing::Workspace& workspace() const { return workspace_; }
     [[nodiscard]] bool has_truth() const { return truth_.has_value(); }
+    [[nodiscard]] std::optional<TruthOrigin> truth_origin() const;
     /// @throws InputError if the subject cannot take part: face, truth or landmark spline to the average are amiss.
     void check_neutral(const std::string& subject) const;
     /// @throws InputError naming the file.

@@ -6,6 +6,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "evaluation/reference_band.h"
+
 namespace mimik::evaluation {
 namespace {
 
@@ -36,6 +38,11 @@ bool tells_true_errors(const ExperimentReport& report) {
     });
 }
 
+/// Whether every band that is known is met.
+bool fit_to_be_scored_on(const std::vector<ReferenceBand>& bands) {
+    return std::all_of(bands.begin(), bands.end(), [](const ReferenceBand& band) { return band.inside(); });
+}
+
 std::string optional_number(double value) { return value < 0 ? "" : fmt::format("{:.6f}", value); }
 
 }  // namespace
@@ -64,6 +71,15 @@ std::string to_markdown(const ExperimentReport& report) {
                         report.whole_face ? fmt::format("{:.2f}", row.explained_whole) : "",
                         total.cases ? 100.0 * static_cast<double>(total.worse) / static_cast<double>(total.cases) : 0.0,
                         total.cases);
+    }
+    if (const auto bands = reference_bands(report); !bands.empty()) {
+        std::vector<std::string> words;
+        for (const auto& band : bands)
+            words.push_back(fmt::format("{} {:.3f} (band {:.2f} to {:.2f})",
+                                        band.kind == RowKind::mean ? "mean" : "from one source", band.explained,
+                                        band.low, band.high));
+        text += fmt::format("\nFit to be scored on: {}. True field {}.\n", fit_to_be_scored_on(bands) ? "yes" : "no",
+                            fmt::join(words, ", "));
     }
     text += fmt::format("\nMean error in mm (distance to the real scan{}):\n\n| method | kind |",
                         tells_true_errors(report) ? " / to the true position of the same skin point" : "");
@@ -143,13 +159,27 @@ std::string to_json(const ExperimentReport& report) {
                         {"share", row.share ? nlohmann::json(*row.share) : nlohmann::json()},
                         {"expressions", scores}});
     }
-    return nlohmann::json{{"schema", 1},
-                          {"subjects", report.subjects},
-                          {"expressions", report.expressions},
-                          {"zones", report.zones},
-                          {"alignment", report.alignment},
-                          {"rows", rows},
-                          {"failures", report.failures}}
+    const auto known_bands = reference_bands(report);
+    auto bands = nlohmann::json::array();
+    for (const auto& band : known_bands)
+        bands.push_back({{"kind", kind_name(band.kind)},
+                         {"explained", band.explained},
+                         {"low", band.low},
+                         {"high", band.high},
+                         {"inside", band.inside()}});
+    return nlohmann::json{
+               {"schema", 1},
+               {"subjects", report.subjects},
+               {"expressions", report.expressions},
+               {"zones", report.zones},
+               {"alignment", report.alignment},
+               {"truth", report.truth
+                             ? nlohmann::json{{"seed", report.truth->seed}, {"face_model", report.truth->face_model}}
+                             : nlohmann::json()},
+               {"reference_bands", bands},
+               {"fit", known_bands.empty() ? nlohmann::json() : nlohmann::json(fit_to_be_scored_on(known_bands))},
+               {"rows", rows},
+               {"failures", report.failures}}
                .dump(1) +
            "\n";
 }
