@@ -306,6 +306,8 @@ void read_document(Reader& reader, const toml::table& document, Parsed& parsed) 
         take("anchor_spacing", parsed.sampling.anchor_spacing, 0.03, 1.0);
         take("anchor_margin", parsed.sampling.anchor_margin, 0.0, 1.0);
         take("min_separation", parsed.sampling.min_separation, 0.005, 0.5);
+    } else if (const auto* other = document.get("sampling")) {
+        reader.error(*other, "'sampling' is not a table; write [sampling] above its keys");
     }
     std::set<int> numbers;
     reader.tables(document, "au", true, [&](const toml::table& table) {
@@ -313,9 +315,12 @@ void read_document(Reader& reader, const toml::table& document, Parsed& parsed) 
         if (!numbers.insert(parsed.units.back().number).second)
             reader.error(table, fmt::format("AU{} stands twice", parsed.units.back().number));
     });
+    std::set<std::string> emotions;
     reader.tables(document, "emotion", false, [&](const toml::table& table) {
         reader.only_keys(table, {"name", "units"});
         Emotion emotion{upper(reader.text(table, "name")), {}};
+        if (!emotion.name.empty() && !emotions.insert(emotion.name).second)
+            reader.error(table, fmt::format("emotion {} stands twice", geometry::in_quotes(emotion.name)));
         if (const auto* list = table["units"].as_array())
             for (const auto& item : *list) {
                 const auto number = reader.small_number(item, "units");

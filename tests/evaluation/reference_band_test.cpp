@@ -1,5 +1,7 @@
 #include "evaluation/reference_band.h"
 
+#include <tuple>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -168,6 +168,24 @@ TEST(CatalogueLinter, finds_a_point_name_used_twice) {
         HasSubstr("point 'corner' stands twice in AU12"));
 }
 
+TEST(CatalogueLinter, finds_a_sampling_that_is_no_table_with_its_line) {
+    // Line 1 is the schema; what is above the first table stands at the top of the document.
+    auto number = catalogue_with("");
+    number.insert(number.find('\n') + 1, "sampling = 5\n");
+    EXPECT_THAT(only_finding(number, 2), HasSubstr("'sampling' is not a table"));
+    const auto text = catalogue_with("") + "\n[[sampling]]\ncoverage_spacing = 0.2\n";
+    const auto line = static_cast<unsigned>(std::count(text.begin(), text.begin() + text.find("[[sampling"), '\n')) + 1;
+    EXPECT_THAT(only_finding(text, line), HasSubstr("'sampling' is not a table"));
+}
+
+TEST(CatalogueLinter, finds_an_emotion_that_stands_twice_whatever_its_case) {
+    const auto text = catalogue_with("") + "\n[[emotion]]\nname = \"GLAD\"\nunits = [12]\n";
+    EXPECT_THAT(lint_catalogue(text), IsEmpty());
+    const auto line = static_cast<unsigned>(std::count(text.begin(), text.end(), '\n')) + 1;
+    EXPECT_THAT(only_finding(text + "[[emotion]]\nname = \"glad\"\nunits = [12]\n", line),
+                HasSubstr("emotion 'GLAD' stands twice"));
+}
+
 TEST(CatalogueLinter, finds_a_point_that_mirrors_on_to_itself) {
     // Half a millimetre beside the midline: too far to count as central, too near to have an image of its own.
     EXPECT_THAT(
