@@ -19,6 +19,7 @@
 #include "geometry/mesh_io.h"
 #include "geometry/text.h"
 #include "modeling/source_expression.h"
+#include "preprocessing/control_pairs.h"
 
 namespace mimik::evaluation {
 
@@ -227,8 +228,35 @@ std::string magnitude_words(double magnitude) {
     return magnitude == 1.0 ? std::string() : fmt::format(", m = {:g}", magnitude);
 }
 
+/// Landmarks that lie on an earlier one on either person (closed lips): a spline through both has no answer, so
+/// nobody's file has them, and the files of two people go into 'mimik warp' as they are.
+std::set<std::string> coincident_landmarks(const std::vector<Person>& people) {
+    std::set<std::string> names;
+    for (const auto& person : people) {
+        std::vector<Point> kept_mm;
+        for (const auto& mark : person.neutral.landmarks.all()) {
+            if (names.contains(mark.name)) continue;
+            const bool lies_on_one = std::any_of(kept_mm.begin(), kept_mm.end(), [&](const Point& p) {
+                return (p - mark.position_mm).norm() < preprocessing::ControlPairs::coincident_mm;
+            });
+            if (lies_on_one)
+                names.insert(mark.name);
+            else
+                kept_mm.push_back(mark.position_mm);
+        }
+    }
+    return names;
+}
+
+geometry::Landmarks without(const geometry::Landmarks& landmarks, const std::set<std::string>& names) {
+    std::vector<geometry::Landmark> marks(landmarks.all().begin(), landmarks.all().end());
+    std::erase_if(marks, [&](const auto& mark) { return names.contains(mark.name); });
+    return geometry::Landmarks(std::move(marks));
+}
+
 /// Panels of one person, in the order of the thesis, then the coloured ones.
-void add_person(FigureFolder& folder, const Person& person, const ComparisonRequest& request, double scale_mm) {
+void add_person(FigureFolder& folder, const Person& person, const geometry::Landmarks& landmarks,
+                const ComparisonRequest& request, double scale_mm) {
     const auto stem = [&](const char* what) { return person.role + "_" + what; };
     const Point centre_mm = centre_of(person.neutral.grid, request.bridged);
 
@@ -242,7 +270,7 @@ void add_person(FigureFolder& folder, const Person& person, const ComparisonRequ
     }
     geometry::write_mesh(folder.file(stem("neutral.ply")), neutral);
     geometry::write_mesh(folder.file(stem("animated.ply")), animated);
-    geometry::write_landmarks(folder.file(stem("landmarks.csv")), person.neutral.landmarks);
+    geometry::write_landmarks(folder.file(stem("landmarks.csv")), landmarks);
 
     const auto who =
         person.role == "average" ? std::string("average face") : person.role + " " + person.neutral.id.subject;
@@ -401,7 +429,9 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
     add_left_out(figure, model);
 
     FigureFolder out(folder, request);
-    for (const auto& person : people) add_person(out, person, request, figure.scale_mm);
+    const auto coincident = coincident_landmarks(people);
+    for (const auto& person : people)
+        add_person(out, person, without(person.neutral.landmarks, coincident), request, figure.scale_mm);
     figure.panels = out.panels();
     // A row per person where both have a real scan; else what there is, without gaps.
     const bool rows = people.size() == 1 || (people.front().real && people.back().real);

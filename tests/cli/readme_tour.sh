@@ -7,8 +7,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
 
 "$mimik" synthesize made --subjects 3 --expressions 1,2,4,12,14,15,17,20,12L --quiet >/dev/null
 mkdir DB
-mv made/bs000 DB/
-for pair in bs001:bs003 bs002:bs007; do
+mv made/bs001 DB/
+for pair in bs000:bs003 bs002:bs007; do  # bs000 of seed 1 has closed lips whose two inner landmarks are one point
   mkdir "DB/${pair#*:}"
   for file in "made/${pair%:*}"/*; do
     name=$(basename "$file")
@@ -33,3 +33,13 @@ while read -r line; do
   fail "exit code $code: $line"
 done <<<"$tour"
 claim "the tour of README.md runs as it is printed"
+
+for way in bs003_on_bs007 bs007_on_bs003; do
+  [ -d "../AU12_${way}_default" ] || (cd ../.. && mimik panels WORK --source bs007 --target bs003 --au 12 -o figures --quiet >/dev/null) || [ "$can_draw" = no ]
+  cd "../AU12_${way}_default"
+  for role in source target; do
+    ! grep -q lower_lip_inner ${role}_landmarks.csv && grep -q upper_lip_inner ${role}_landmarks.csv || fail "landmarks of the $role in $way"
+  done
+  mimik warp --from source_landmarks.csv --to target_landmarks.csv source_neutral.ply -o warped.ply --quiet
+done
+claim "of landmarks that lie on one another on either person both files of a panel have the first, so that they go into a warp"
