@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/method_options.h"
+#include "geometry/output_folder.h"
 #include "modeling/source_expression.h"
 
 namespace mimik::cli {
@@ -32,6 +33,7 @@ int run(Arguments& arguments) {
         modeling::check_source(workspace, {source, {}}, arguments.method.model_options());
         if (source != "mean") (void)workspace.neutral(source);
     }
+    geometry::check_takes_files(folder);
 
     const auto provenance = arguments.method.provenance(catalogue, workspace.average());
     auto written = nlohmann::json::array();

@@ -12,6 +12,7 @@
 #include "cli/method_options.h"
 #include "evaluation/comparison_panels.h"
 #include "geometry/errors.h"
+#include "geometry/output_folder.h"
 
 namespace mimik::cli {
 namespace {
@@ -137,6 +138,7 @@ int run(Arguments& arguments) {
     const std::filesystem::path folder = arguments.output;
 
     if (arguments.dry_run) return say_plan(arguments, planned);
+    geometry::check_takes_files(folder);
 
     auto figures = nlohmann::json::array();
     std::vector<std::string> failures;

@@ -1,15 +1,29 @@
 #include "geometry/output_folder.h"
 
+#include <string>
 #include <system_error>
 
+#include <fmt/format.h>
+
+#include "geometry/errors.h"
 #include "geometry/file.h"
 
 namespace mimik::geometry {
 
 void check_takes_files(const std::filesystem::path& folder) {
+    std::error_code error, ignored;
+    if (std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored))
+        throw InputError(fmt::format("{}: is a file; give a folder", folder.string()));
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw InputError(
+            fmt::format("{}: the folder cannot be made ({}); write elsewhere", folder.string(), error.message()));
     const auto probe = folder / "mimik.probe";
-    write_atomically(probe, "");
-    std::error_code ignored;
+    try {
+        write_atomically(probe, "");
+    } catch (const InputError& e) {  // of the folder that was given, not of a file that nobody knows
+        throw InputError(folder.string() + std::string(e.what()).substr(probe.string().size()));
+    }
     std::filesystem::remove(probe, ignored);
 }
 

@@ -194,8 +194,12 @@ expect_code 2 "MB free" "$mimik" synthesize x --subjects 1000 --expressions all 
 claim "a dry run refuses what the run would, and believes in no more threads than there are cores"
 
 touch file
-expect_code 2 "file" "$mimik" evaluate work1 --expression 12 -o file/scores
+expect_code 2 "file/scores: the folder cannot be made" "$mimik" evaluate work1 --expression 12 -o file/scores
 [ ! -s out.txt ]
+for command in "evaluate work1 --expression 12" "model work1 --expression 12" "panels work1 --target bs001 --au 12"; do
+  expect_code 2 "mimik: file: is a file; give a folder" "$mimik" $command -o file
+  expect_code 2 "mimik: /proc/mimik: " "$mimik" $command -o /proc/mimik
+done
 expect_code 2 "file: is a file" "$mimik" preprocess db1 -o file
 expect_code 2 "/proc/mimik" "$mimik" preprocess db1 -o /proc/mimik
 code=0
