@@ -6,6 +6,10 @@
 
 namespace mimik::cli {
 
+geometry::SplineKernel kernel_by_name(const std::string& name) {
+    return name == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
+}
+
 void MethodArguments::add_to(CLI::App& command) {
     command.add_option("--method", name, "thesis (as printed) or default (what measured best)")
         ->check(CLI::IsMember({"thesis", "default"}))
@@ -29,7 +33,7 @@ namespace {
 template <typename Options>
 void apply_switches(const MethodArguments& arguments, Options& options, double& smoothing) {
     if (!arguments.kernel.empty()) {
-        const auto kernel = arguments.kernel == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
+        const auto kernel = kernel_by_name(arguments.kernel);
         if (kernel != options.kernel) smoothing = 0;
         options.kernel = kernel;
     }

@@ -5,10 +5,14 @@
 #include <CLI/CLI.hpp>
 
 #include "animation/animate.h"
+#include "geometry/thin_plate_spline.h"
 #include "modeling/expression_model.h"
 #include "modeling/facs_catalogue.h"
 
 namespace mimik::cli {
+
+/// Of --kernel, which the parser has found to be r or r2logr.
+[[nodiscard]] geometry::SplineKernel kernel_by_name(const std::string& name);
 
 /// --method thesis|default and the single switches that differ from it; shared by the commands that model and animate.
 struct MethodArguments {

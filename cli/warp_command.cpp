@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -8,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/method_options.h"
 #include "database/hidden_subjects.h"
 #include "geometry/warp.h"
 
@@ -17,15 +17,14 @@ namespace {
 struct WarpArguments {
     Common common;
     std::filesystem::path from, to, input, output;
+    std::string kernel = "r";
     geometry::WarpOptions options;
 };
-
-const std::map<std::string, geometry::SplineKernel> kernel_names = {{"r", geometry::SplineKernel::r},
-                                                                    {"r2logr", geometry::SplineKernel::r2_log_r2}};
 
 int run_warp(const WarpArguments& arguments) {
     for (const auto& file : {arguments.input, arguments.from, arguments.to}) database::refuse_hidden_file(file);
     auto options = arguments.options;
+    options.kernel = kernel_by_name(arguments.kernel);
     options.check_texture = [](const std::filesystem::path& image) { database::refuse_hidden_file(image); };
     const auto report = geometry::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, options);
     if (arguments.common.json) {
@@ -53,9 +52,9 @@ void add_warp_command(CLI::App& app, int& exit_code) {
     auto* command = app.add_subcommand("warp", "Warp a mesh or a list of points by landmarks (thin-plate spline)");
     command->add_option("--from", arguments->from, "Landmarks on the input: CSV with name,x,y,z")->required();
     command->add_option("--to", arguments->to, "Where they go: the same names")->required();
-    command->add_option("--kernel", arguments->options.kernel, "r, or r2logr (r^2 ln r^2)")
-        ->transform(CLI::CheckedTransformer(kernel_names).description("{r,r2logr}"))
-        ->default_str("r");
+    command->add_option("--kernel", arguments->kernel, "r, or r2logr (r^2 ln r^2)")
+        ->check(CLI::IsMember({"r", "r2logr"}))
+        ->capture_default_str();
     command
         ->add_option("--smoothing", arguments->options.smoothing,
                      "X in (K + X I) W + P A = V; 0 passes through every landmark; unit of K")

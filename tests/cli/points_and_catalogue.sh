@@ -38,6 +38,11 @@ for kernel in r r2logr; do
   done
 done
 claim "landmarks that stay move nothing, and landmarks that all move alike move every point alike, for any kernel and smoothing"
+for kernel in r2 R 1; do
+  expect_code 2 $'--kernel\nr2logr' "$mimik" warp --from box.csv --to box.csv --kernel $kernel points.csv -o nothing.csv
+done
+[ ! -e nothing.csv ] || fail "a kernel that there is not"
+claim "a kernel of another name is refused with the names that there are"
 [ "$(cut -d, -f1 shifted.csv | tr '\n' ' ')" = "name last first last " ] || fail "names and order"
 claim "names and order of a CSV are kept"
 
