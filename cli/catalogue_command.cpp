@@ -138,8 +138,9 @@ void add_catalogue_command(CLI::App& app, int& exit_code) {
     const auto request = std::make_shared<Request>();
     add_common_options(*command, request->common);
     command->add_option("FILE", request->file, "Catalogue file (TOML); without it, the one that Mimik ships");
-    command->add_flag("--lint", request->lint, "List every fault of the file with its line");
-    command->add_flag("--text", request->text, "Print the file itself: a start for one's own");
+    auto* lint = command->add_flag("--lint", request->lint, "List every fault of the file with its line");
+    command->add_flag("--text", request->text, "Print the file itself: a start for one's own")
+        ->excludes(lint, command->get_option("--json"));
     command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

@@ -136,6 +136,11 @@ grep -q ': 0 errors' lint.txt || fail "the catalogue that is shipped has faults"
 "$mimik" catalogue | grep -q "Gray's Anatomy, muscles of facial expression (AU 1, 2, 4, 12" || fail "references of the muscles"
 grep -q '"reference": "FACS' own.json || fail "reference of a muscle"
 claim "the catalogue that is shipped has no fault, and its text reads back the same"
+for other in --json --lint; do
+  expect_code 2 $'--text\n'$other "$mimik" catalogue --text $other
+  ! grep -q '\[' out.txt || fail "the text all the same"
+done
+claim "the text of a catalogue is neither JSON nor a check, and what asks for both is refused"
 line=$(grep -n -m1 'mouth_corner = 1.0' own.toml | cut -d: -f1)
 sed "${line}s/mouth_corner = 1.0/mouth_korner = 1.0/" own.toml >wrong.toml
 expect_code 2 "wrong.toml:$line: error: "$'\nmouth_korner' "$mimik" catalogue wrong.toml --lint
