@@ -48,6 +48,8 @@ int main(int argc, char** argv) {
     CLI::App app{"Mimik puts expressions on 3D face scans and measures how true they are.", "mimik"};
     app.set_version_flag("--version", MIMIK_VERSION);
     app.require_subcommand(1);
+    app.footer(
+        "Ends with 0: done; 1: done, with failures that are listed; 2: bad input; 3: the numbers allow no answer.");
     int exit_code = mimik::cli::exit_done;
     mimik::cli::add_scans_command(app, exit_code);
     mimik::cli::add_animate_command(app, exit_code);

@@ -85,8 +85,8 @@ int run(Arguments& arguments) {
                              .dump(1)
                       << '\n';
         else
-            std::cout << fmt::format("{} scans: about {:.0f} s, {:.0f} MB in {}\n", scans.size(), seconds, megabytes,
-                                     arguments.output);
+            std::cout << fmt::format("{} scans: about {:.0f} s, {:.0f} MB in {} at most, if nothing is there yet\n",
+                                     scans.size(), seconds, megabytes, arguments.output);
         return exit_done;
     }
     // Which part of a face an expression leaves alone is the catalogue's knowledge; codes it lacks get the general
@@ -176,7 +176,8 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
                      "Another FACS catalogue (TOML): what each AU leaves alone is what scans are aligned by")
         ->check(CLI::ExistingFile);
     command->add_flag("--sheets", arguments->sheets, "Draw a quality sheet per subject: OUTPUT/sheets/bs003.png");
-    command->add_flag("--dry-run", arguments->dry_run, "Say time and disk, do nothing");
+    command->add_flag("--dry-run", arguments->dry_run,
+                      "Say time and disk at most, if nothing is there yet; do nothing");
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -44,17 +44,19 @@ int run_synthesize(const SynthesizeArguments& arguments) {
     synthesis::check_database_place(arguments.out, estimate.bytes);
     if (arguments.dry_run) {
         const double seconds = estimate.core_seconds / working_threads();
+        const double megabytes = static_cast<double>(estimate.bytes) / 1e6;
         if (arguments.common.json)
             std::cout << nlohmann::json{{"schema", 1},
+                                        {"dry_run", true},
                                         {"scans", estimate.scans},
                                         {"bytes", estimate.bytes},
+                                        {"megabytes", megabytes},
                                         {"seconds", seconds},
                                         {"skipped_expressions", estimate.skipped_expressions}}
                              .dump(2)
                       << '\n';
         else
-            std::cout << fmt::format("{} scans, about {:.0f} MB and {:.0f} s\n", estimate.scans,
-                                     static_cast<double>(estimate.bytes) / 1e6, seconds);
+            std::cout << fmt::format("{} scans, about {:.0f} MB and {:.0f} s\n", estimate.scans, megabytes, seconds);
         return exit_done;
     }
     Progress progress(arguments.common, "synthesize", estimate.scans);

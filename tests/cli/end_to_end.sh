@@ -186,12 +186,16 @@ expect_code 2 "'99'" "$mimik" evaluate work1 --expression 99 --dry-run
 expect_code 2 "trim is nan" "$mimik" preprocess db1 -o x --trim nan --dry-run
 expect_code 2 "100000" "$mimik" preprocess db1 -o x --rows 100000 --dry-run
 expect_code 2 "nothing is written" "$mimik" preprocess db1 -o db1 --dry-run
-"$mimik" evaluate work1 --expression 12 --dry-run --json | grep -q '"megabytes"'
+for command in "evaluate work1 --expression 12" "preprocess db1 -o x" "synthesize x" "panels work1 --target bs001 --au 12 -o x"; do
+  "$mimik" $command --dry-run --json >plan.json
+  for key in '"dry_run": true' '"seconds"' '"megabytes"'; do grep -q "$key" plan.json || fail "no $key: $command"; done
+done
+"$mimik" preprocess db1 -o work1 --dry-run | grep -q "at most, if nothing is there yet" || fail "what is there is not done again"
 "$mimik" preprocess db1 -o x --dry-run --json --threads "$(nproc)" >estimate.json
 "$mimik" preprocess db1 -o x --dry-run --json --threads 1024 | diff estimate.json -
 expect_code 2 "db1: exists already" "$mimik" synthesize db1 --dry-run
 expect_code 2 "MB free" "$mimik" synthesize x --subjects 1000 --expressions all --spacing 0.2 --texture-density 10 --dry-run
-claim "a dry run refuses what the run would, and believes in no more threads than there are cores"
+claim "a dry run says the same of every command, refuses what the run would, and believes in no more threads than there are cores"
 
 touch file
 expect_code 2 "file/scores: the folder cannot be made" "$mimik" evaluate work1 --expression 12 -o file/scores

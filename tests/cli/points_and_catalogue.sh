@@ -97,6 +97,8 @@ for command in "distance low.obj high.obj --json" "catalogue --text" "catalogue 
   [ "$code" -eq 2 ] && grep -q "standard output" err.txt || fail "a full disk is no success: $command"
 done
 claim "a result that standard output does not take ends with 2"
+expect_code 0 "Ends with 0: done; 1: done, with failures" "$mimik" --help
+claim "the help says with which code a command ends"
 expect_code 2 $'no command \'distnace\'\ndistance' "$mimik" distnace low.obj high.obj
 claim "an unknown command is named with the nearest"
 
