@@ -13,6 +13,7 @@
 #include "cli/command.h"
 #include "cli/method_options.h"
 #include "cli/regions_file.h"
+#include "cli/subject_names.h"
 #include "geometry/errors.h"
 #include "modeling/region_labels.h"
 #include "modeling/source_expression.h"
@@ -63,7 +64,10 @@ modeling::RegionLabels region_labels(const preprocessing::Workspace& workspace, 
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
     const auto catalogue = arguments.method.catalogue();
-    for (const auto& subject : {arguments.source, arguments.target}) workspace.refuse_hidden(subject);
+    for (auto* subject : {&arguments.source, &arguments.target}) {
+        *subject = subject_named(workspace, *subject);
+        workspace.refuse_hidden(*subject);
+    }
 
     const auto model_options = arguments.method.model_options();
     auto animation_options = arguments.method.animation_options();

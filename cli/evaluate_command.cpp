@@ -81,7 +81,7 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     command->add_option("--method", arguments->methods, "thesis, default (one source), mean (of all other subjects)")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("--expression", options.expressions, "AUs and emotions to score")
+    command->add_option("--expression,--au", options.expressions, "AUs and emotions to score")
         ->delimiter(',')
         ->capture_default_str();
     command->add_option("--max-sources", options.max_sources, "Sources per target; 0 = all other subjects")

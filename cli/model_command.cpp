@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/method_options.h"
+#include "cli/subject_names.h"
 #include "geometry/output_folder.h"
 #include "modeling/source_expression.h"
 
@@ -29,7 +30,8 @@ int run(Arguments& arguments) {
                                              : std::filesystem::path(arguments.output);
     // A word mistyped is found out before any work.
     for (auto& expression : arguments.expressions) expression = catalogue.code(expression);
-    for (const auto& source : arguments.sources) {
+    for (auto& source : arguments.sources) {
+        source = subject_named(workspace, source);
         modeling::check_source(workspace, {source, {}}, arguments.method.model_options());
         if (source != "mean") (void)workspace.neutral(source);
     }
@@ -80,7 +82,7 @@ void add_model_command(CLI::App& app, int& exit_code) {
     command->add_option("--source", arguments->sources, "Subjects, or mean (of all)")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("--expression", arguments->expressions, "AUs and emotions")
+    command->add_option("--expression,--au", arguments->expressions, "AUs and emotions")
         ->delimiter(',')
         ->capture_default_str();
     command->add_option("-o,--output", arguments->output,

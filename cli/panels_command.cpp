@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/figure_start.h"
 #include "cli/method_options.h"
+#include "cli/subject_names.h"
 #include "evaluation/comparison_panels.h"
 #include "geometry/errors.h"
 #include "geometry/output_folder.h"
@@ -133,6 +134,8 @@ int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
     const auto catalogue = arguments.method.catalogue();
     if (arguments.keep_bridged) arguments.request.bridged = geometry::BridgedVertices::keep;
+    for (auto* subject : {&arguments.request.source, &arguments.request.target})
+        *subject = subject_named(workspace, *subject);
     std::vector<std::string> codes;
     const auto planned = plan(arguments, workspace, catalogue, codes);
     const std::filesystem::path folder = arguments.output;

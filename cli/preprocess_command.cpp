@@ -155,7 +155,8 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
         ->add_option("-o,--output", arguments->output, "Workspace folder; a second run goes on where the first ended")
         ->required();
     command->add_option("--subject", options.subjects, "Only these subjects (bs003,bs007)")->delimiter(',');
-    command->add_option("--expression", options.codes, "Only these expressions beside the neutrals (1,12,12L,HAPPY)")
+    command
+        ->add_option("--expression,--au", options.codes, "Only these expressions beside the neutrals (1,12,12L,HAPPY)")
         ->delimiter(',');
     command->add_option("--rows", options.gridding.rows, "Rows of the grid")->capture_default_str();
     command->add_option("--cols", options.gridding.cols, "Columns of the grid")->capture_default_str();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -13,6 +14,8 @@
 
 #include "cli/command.h"
 #include "database/catalogue.h"
+#include "geometry/errors.h"
+#include "geometry/text.h"
 
 namespace mimik::cli {
 namespace {
@@ -24,6 +27,7 @@ struct Request {
     std::filesystem::path root;
     Selection selection;
     std::string side;
+    std::vector<std::string> action_units;
     CatalogueOptions catalogue;
     bool no_catalogue = false;
     bool list = false;
@@ -211,7 +215,18 @@ void print_findings(const std::vector<const ScanEntry*>& scans, const CatalogueR
     }
 }
 
+int action_unit_number(const std::string& text) {
+    std::string_view word = text;
+    if (geometry::equal_ignoring_case(word.substr(0, 2), "AU")) word.remove_prefix(2);
+    constexpr std::int64_t most = 999;
+    if (const auto number = geometry::parse_integer(word); number && *number > 0 && *number <= most)
+        return static_cast<int>(*number);
+    throw InputError(fmt::format(
+        "--au is '{}'; give the number of an AU, such as 12 or AU12, and the side, if it matters, by --side", text));
+}
+
 int run(Request& request) {
+    for (const auto& text : request.action_units) request.selection.action_units.push_back(action_unit_number(text));
     if (!request.side.empty()) request.selection.side = parse_side(request.side);
     request.catalogue.use_cache = !request.no_catalogue;
     check_by_option(
@@ -262,8 +277,7 @@ void add_scans_command(CLI::App& app, int& exit_code) {
     command->add_option("--subject", request->selection.subjects, "Only these subjects, such as bs003,bs007")
         ->delimiter(',');
     command->add_option("--group", request->selection.groups, "Only these groups, such as N,LFAU")->delimiter(',');
-    command->add_option("--au", request->selection.action_units, "Only these action units, such as 1,12")
-        ->delimiter(',');
+    command->add_option("--au", request->action_units, "Only these action units, such as 1,12")->delimiter(',');
     command->add_option("--side", request->side, "Only left, right (the subject's own) or both-sided scans");
     command->add_flag("--list", request->list, "One line per scan, and every note (as when scans are selected)");
     command->add_flag("--no-catalogue", request->no_catalogue, "Read every scan; leave the user's cache alone");

@@ -161,7 +161,7 @@ void add_synthesize_command(CLI::App& app, int& exit_code) {
     command->add_option("--subjects", options.subjects, "How many people")->capture_default_str();
     command
         ->add_option("--expressions", options.expressions,
-                     "thesis, emotions, further, all, or codes such as 12,12L,HAPPY; commas between")
+                     "thesis, emotions, further, all, or codes such as 12,AU12_L,HAPPY; commas between")
         ->capture_default_str();
     command->add_option("--neutrals", options.neutrals, "Neutral scans per person")->capture_default_str();
     command->add_flag("--repeat", options.repeat, "A second scan _1 of each expression");

@@ -221,14 +221,19 @@ Face preprocess_scan(const database::LoadedScan& loaded, const PreprocessOptions
 
 std::vector<const ScanEntry*> selected_scans(const database::ScanDatabase& database, const PreprocessOptions& options) {
     static const std::set<std::string> posed = {"YR", "PR", "CR", "O", "IGN"};
-    std::set<std::string> subjects, codes, unseen_subjects, unseen_codes;
-    for (const auto& subject : options.subjects) subjects.insert(upper(subject));
+    std::map<std::string, std::string> subjects, codes, unseen_subjects, unseen_codes;  // as compared -> as typed
+    for (const auto& subject : options.subjects) subjects.emplace(upper(subject), subject);
     for (const auto& code : options.codes) {
         const auto id = database::parse_expression(code);
-        codes.insert(upper(id ? id->code : code));
+        codes.emplace(upper(id ? id->code : code), code);
     }
     unseen_subjects = subjects;
     unseen_codes = codes;
+    const auto typed = [](const std::map<std::string, std::string>& words) {
+        std::vector<std::string_view> list;
+        for (const auto& [compared, word] : words) list.push_back(word);
+        return fmt::format("{}", fmt::join(list, ", "));
+    };
     std::vector<const ScanEntry*> scans;
     for (const auto& entry : database.scans) {
         const auto subject = upper(entry.id.subject), code = upper(entry.id.code);
@@ -241,10 +246,10 @@ std::vector<const ScanEntry*> selected_scans(const database::ScanDatabase& datab
     }
     if (!unseen_subjects.empty())
         throw InputError(fmt::format("{}: no subject {}; 'mimik scans' lists what there is", database.root.string(),
-                                     fmt::join(unseen_subjects, ", ")));
+                                     typed(unseen_subjects)));
     if (!unseen_codes.empty())
         throw InputError(fmt::format("{}: no scan of expression {}; 'mimik scans' lists what there is",
-                                     database.root.string(), fmt::join(unseen_codes, ", ")));
+                                     database.root.string(), typed(unseen_codes)));
     if (scans.empty())
         throw InputError(
             fmt::format("{}: no scan fits the selection; 'mimik scans' lists what there is", database.root.string()));

@@ -118,12 +118,19 @@ const std::string& known_codes() {
     return text;
 }
 
+/// "1 2" and "1-2" would be read as 12.
+bool several_numbers(std::string_view text) {
+    const auto digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+    const auto* begin = std::find_if(text.begin(), text.end(), digit);
+    const auto* end = std::find_if_not(begin, text.end(), digit);
+    return std::any_of(end, text.end(), digit);
+}
+
 }  // namespace
 
 Expression make_expression(std::string_view text) {
-    std::string code(text);
-    for (char& letter : code) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-    if (const auto bar = code.find('_'); bar != std::string::npos) code.erase(0, bar + 1);
+    const auto parsed = database::parse_expression(text);
+    const auto code = parsed && !several_numbers(text) ? parsed->code : std::string(text);
     Expression expression;
     expression.code = code;
     if (code == "N") {

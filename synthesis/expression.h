@@ -26,8 +26,8 @@ struct Expression {
     std::map<int, double> action_units;  ///< AU -> strength; what an expert would score
 };
 
-/// By code, with or without group, case ignored: "12", "LFAU_12L", "HAPPY", "E_ANGER". @throws InputError listing the
-/// codes there are.
+/// As database::parse_expression reads it, in any case: "12", "AU12_L", "LFAU_12L", "HAPPY", "E_ANGER".
+/// @throws InputError listing the codes there are.
 [[nodiscard]] Expression make_expression(std::string_view code);
 
 /// "thesis" = AUs 1 2 4 12 14 15 17 20, 12L, 12R; "emotions"; "further" = AUs 5 6 7 9 10 16 18 22-28 34 43; "all"; or a

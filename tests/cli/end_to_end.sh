@@ -28,7 +28,21 @@ claim "a second run finds everything done"
 "$mimik" animate work1 --source bs000 --target bs001 --au AU12_L --au au4:0.5 -o named.glb --quiet
 cmp face.glb named.glb
 "$mimik" panels work1 --source bs000 --target bs001 --au AU12_L -o panels --dry-run | grep -q "AU12_L_bs000_on_bs001"
+"$mimik" model work1 --source BS000 --au AU12_L -o typed --quiet >/dev/null
+[ -s typed/bs000/AU12_L.json ]
+"$mimik" preprocess db1 -o x --au au12_l --dry-run --quiet | grep -q '^9 scans'
+"$mimik" evaluate work1 --au au12_l --dry-run --quiet >/dev/null
+"$mimik" synthesize x --expressions 4,12,12L --dry-run --quiet >plan.txt
+"$mimik" synthesize x --expressions au4,AU12,au12_l --dry-run --quiet | cut -d, -f1 | diff <(cut -d, -f1 plan.txt) -
+"$mimik" scans db1 --au AU12 --side left --no-catalogue 2>/dev/null | grep -q ': 3 scans of 3 subjects'
+expect_code 2 $'--au is \'12L\'\n--side' "$mimik" scans db1 --au 12L
 claim "an expression may be typed in every way in which it is written"
+"$mimik" animate work1 --source BS000 --target Bs001 --au 12L,4:0.5 -o face2.glb --quiet
+cmp face.glb face2.glb
+"$mimik" panels work1 --source BS000 --target BS001 --au 12 -o panels --dry-run | grep -q "AU12_bs000_on_bs001"
+expect_code 2 "'BS077'" "$mimik" animate work1 --target BS077 --au 12 -o nothing.ply
+expect_code 2 "no subject bs077, Bs078;" "$mimik" preprocess db1 -o x --subject bs077,bs000,Bs078
+claim "subjects are found in capitals too, and one that is not there is named as it was typed"
 
 "$mimik" model work1 --source bs000 --expression 12 -o models --quiet
 "$mimik" animate work1 --source bs000 --target bs001 --au 12:0.5 -o measured.glb --quiet

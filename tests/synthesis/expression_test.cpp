@@ -17,6 +17,7 @@ TEST(Expression, smile_has_both_sides_and_its_one_sided_form_only_its_own) {
     EXPECT_DOUBLE_EQ(smile.main_shapes[0].weight, 0.70);
     const auto left = make_expression("12l");
     EXPECT_EQ(left.code, "12L");
+    for (const char* spelling : {"AU12_L", "au12l", "LFAU_12L"}) EXPECT_EQ(make_expression(spelling).code, "12L");
     for (const auto& part : left.co_activated) EXPECT_TRUE(part.shape.ends_with("_L")) << part.shape;
     ASSERT_EQ(left.main_shapes.size(), 1U);
     EXPECT_EQ(left.main_shapes[0].shape, "mouthSmile_L");
@@ -53,6 +54,7 @@ TEST(Expression, unknown_codes_are_refused_with_the_codes_there_are) {
         EXPECT_THAT(e.what(), HasSubstr("'LFAU_99'"));
         EXPECT_THAT(e.what(), HasSubstr("SURPRISE"));
     }
+    for (const char* two : {"1 2", "1-2", "AU1_2"}) EXPECT_THROW((void)make_expression(two), InputError) << two;
     try {
         (void)make_expression("17L");
         FAIL();
