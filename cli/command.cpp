@@ -5,6 +5,7 @@
 #include <exception>
 #include <iostream>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
@@ -41,6 +42,13 @@ void check_by_option(const OptionOfField& options, const std::function<void()>& 
         if (it == options.end()) throw;
         throw InputError(fmt::format("{}: {}", it->second, message));
     }
+}
+
+void refuse_doubles(const std::string& option, const std::vector<std::string>& values) {
+    std::set<std::string> seen;
+    for (const auto& value : values)
+        if (!seen.insert(value).second)
+            throw InputError(fmt::format("{}: '{}' is asked for twice; give it once", option, value));
 }
 
 void add_seed_option(CLI::App& command, std::uint64_t& seed) {

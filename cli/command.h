@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -29,6 +30,9 @@ using OptionOfField = std::map<std::string, std::string>;
 /// Runs a check that refuses an option by its field's name ("spacing_mm is 0; ...") and puts before it what was typed:
 /// "--spacing: spacing_mm is 0; ...".
 void check_by_option(const OptionOfField& options, const std::function<void()>& check);
+
+/// @throws InputError naming the option and the first value that it was given twice.
+void refuse_doubles(const std::string& option, const std::vector<std::string>& values);
 
 /// --seed: a whole number of 0 or more.
 void add_seed_option(CLI::App& command, std::uint64_t& seed);

@@ -28,6 +28,7 @@ int run(Arguments& arguments) {
     const auto catalogue = arguments.catalogue_file.empty() ? modeling::builtin_catalogue()
                                                             : modeling::read_catalogue(arguments.catalogue_file);
     auto& options = arguments.options;
+    refuse_doubles("--method", arguments.methods);
     options.methods.clear();
     for (const auto& name : arguments.methods) options.methods.push_back(evaluation::method_by_name(name));
     for (auto& expression : options.expressions) expression = catalogue.code(expression);

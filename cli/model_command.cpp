@@ -30,11 +30,13 @@ int run(Arguments& arguments) {
                                              : std::filesystem::path(arguments.output);
     // A word mistyped is found out before any work.
     for (auto& expression : arguments.expressions) expression = catalogue.code(expression);
+    refuse_doubles("--expression", arguments.expressions);
     for (auto& source : arguments.sources) {
         source = subject_named(workspace, source);
         modeling::check_source(workspace, {source, {}}, arguments.method.model_options());
         if (source != "mean") (void)workspace.neutral(source);
     }
+    refuse_doubles("--source", arguments.sources);
     geometry::check_takes_files(folder);
 
     const auto provenance = arguments.method.provenance(catalogue, workspace.average());

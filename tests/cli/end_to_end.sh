@@ -182,6 +182,9 @@ claim "the doctor has neither a warning nor a remark on a synthetic database"
 expect_code 2 "AU99 is not in the catalogue; there are: 1, 2" "$mimik" animate work1 --target bs001 --au 99 -o x.ply
 expect_code 2 "no scan of expression '17'" "$mimik" animate work1 --source bs000 --target bs001 --au 17 -o x.ply
 expect_code 2 "asked for twice" "$mimik" evaluate work1 --expression 12,AU12
+expect_code 2 "--method: 'thesis' is asked for twice" "$mimik" evaluate work1 --expression 12 --method thesis,mean,thesis
+expect_code 2 "--source: 'bs000' is asked for twice" "$mimik" model work1 --source bs000,BS000 --expression 12 -o x
+expect_code 2 "--expression: '12' is asked for twice" "$mimik" model work1 --source bs000 --expression 12,AU12 -o x
 expect_code 2 "AU99 is not in the catalogue" "$mimik" model work1 --source bs000 --expression 12,99 -o x
 expect_code 2 "bs000, bs001, bs002" "$mimik" model work1 --source bs009 --expression 12 -o x
 expect_code 2 "bs000, bs001, bs002" "$mimik" animate work1 --source bs000 --target bs009 --au 12 -o x.ply
