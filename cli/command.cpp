@@ -13,6 +13,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/parallel.h"
+#include "geometry/text.h"
 
 namespace mimik::cli {
 namespace {
@@ -42,6 +43,14 @@ void check_by_option(const OptionOfField& options, const std::function<void()>& 
         if (it == options.end()) throw;
         throw InputError(fmt::format("{}: {}", it->second, message));
     }
+}
+
+void refuse_range_scan(const std::filesystem::path& file) {
+    if (geometry::equal_ignoring_case(file.extension().string(), ".bnt"))
+        throw InputError(
+            fmt::format("{}: is a range scan, not a mesh; 'mimik preprocess DB -o WORK' makes one of it: "
+                        "WORK/faces/SUBJECT/{}.ply",
+                        file.string(), file.stem().string()));
 }
 
 void refuse_doubles(const std::string& option, const std::vector<std::string>& values) {

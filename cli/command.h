@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -30,6 +31,9 @@ using OptionOfField = std::map<std::string, std::string>;
 /// Runs a check that refuses an option by its field's name ("spacing_mm is 0; ...") and puts before it what was typed:
 /// "--spacing: spacing_mm is 0; ...".
 void check_by_option(const OptionOfField& options, const std::function<void()>& check);
+
+/// A .bnt is read as a scan, not as a mesh. @throws InputError saying how to get a mesh of one.
+void refuse_range_scan(const std::filesystem::path& file);
 
 /// @throws InputError naming the option and the first value that it was given twice.
 void refuse_doubles(const std::string& option, const std::vector<std::string>& values);

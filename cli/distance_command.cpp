@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -49,6 +51,13 @@ void write_distances(const std::filesystem::path& file, geometry::Mesh mesh, con
     geometry::write_mesh(file, mesh);
 }
 
+/// Vertices that no polygon has: cells of a workspace's grid outside the face, or points beside a mesh.
+std::ptrdiff_t vertices_without_face(const geometry::Mesh& mesh) {
+    std::vector<bool> has_face(mesh.vertices_mm.size(), false);
+    for (const auto corner : mesh.faces.corners) has_face[corner] = true;
+    return std::count(has_face.begin(), has_face.end(), false);
+}
+
 /// Found out before the work: the other formats would drop the distances in silence.
 void check_output(const std::filesystem::path& file) {
     const auto extension = geometry::lower_case(file.extension().string());
@@ -59,7 +68,10 @@ void check_output(const std::filesystem::path& file) {
 
 void run(const Request& request) {
     check_output(request.output);
-    for (const auto& file : {request.test, request.reference}) database::refuse_hidden_file(file);
+    for (const auto& file : {request.test, request.reference}) {
+        refuse_range_scan(file);
+        database::refuse_hidden_file(file);
+    }
     auto test = read_test(request.test);
     const auto reference = geometry::read_mesh(request.reference);
     if (reference.faces.size() == 0)
@@ -67,6 +79,9 @@ void run(const Request& request) {
             fmt::format("{}: the reference has {} vertices but no face; distances need a surface: give a mesh",
                         request.reference.string(), reference.vertices_mm.size()));
     const auto distance = evaluation::surface_distance(test, reference);
+    if (const auto loose = test.faces.size() > 0 ? vertices_without_face(test) : 0; loose > 0 && !request.common.quiet)
+        std::cerr << fmt::format("note: {}: {} vertices belong to no face and count all the same\n",
+                                 request.test.string(), loose);
     if (!request.output.empty()) write_distances(request.output, std::move(test), distance.test_to_reference);
     if (request.common.json) {
         nlohmann::ordered_json document = {{"units", "mm"},

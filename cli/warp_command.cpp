@@ -23,6 +23,7 @@ struct WarpArguments {
 
 int run_warp(const WarpArguments& arguments) {
     for (const auto& file : {arguments.input, arguments.from, arguments.to}) database::refuse_hidden_file(file);
+    refuse_range_scan(arguments.input);
     auto options = arguments.options;
     options.kernel = kernel_by_name(arguments.kernel);
     options.check_texture = [](const std::filesystem::path& image) { database::refuse_hidden_file(image); };

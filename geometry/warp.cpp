@@ -94,9 +94,11 @@ void write_output(const std::filesystem::path& output, WarpInput warp, const std
 
 /// Found out before the work, not after it.
 void check_output_format(const std::filesystem::path& output) {
-    if (!is_csv(output) && mesh_format(output) == MeshFormat::pcd)
-        throw InputError(
-            fmt::format("{}: PCD is read but not written; give .csv, .ply, .obj, .stl or .vtp", output.string()));
+    const auto extension = lower_case(output.extension().string());
+    for (const char* written : {".csv", ".ply", ".obj", ".stl", ".vtp"})
+        if (extension == written) return;
+    throw InputError(fmt::format("{}: files of extension {} are not written; give .csv, .ply, .obj, .stl or .vtp",
+                                 output.string(), in_quotes(extension)));
 }
 
 }  // namespace

@@ -74,6 +74,18 @@ expect_json cloud.json test_to_reference p95 4.8  # 1 + 0.95 (5 - 1)
 expect_json cloud.json test_to_reference max 5
 grep -q '"reference_to_test": null' cloud.json || fail "a cloud has no surface to measure to"
 claim "points are measured to the nearest point of the surface, edges included"
+(cat low.obj; printf 'v 20 20 3\nv 20 20 13\n') >loose.obj
+"$mimik" distance loose.obj high.obj --json >loose.json 2>err.txt
+grep -qF "note: loose.obj: 2 vertices belong to no face and count all the same" err.txt || fail "vertices without a face"
+expect_json loose.json test_to_reference n 6
+expect_json loose.json test_to_reference max 10
+"$mimik" distance loose.obj high.obj --quiet 2>err.txt | grep -q "test to reference"
+! [ -s err.txt ] || fail "remarks though quiet"
+for clean in low.obj cloud.csv; do
+  "$mimik" distance $clean high.obj >out.txt 2>err.txt
+  ! [ -s err.txt ] || fail "a remark on $clean"
+done
+claim "vertices without a face count, and it is said how many they are"
 "$mimik" distance low.obj high.obj -o low.vtp --quiet >/dev/null
 grep -q 'Name="distance_mm"' low.vtp || fail "values per vertex"
 claim "distances per vertex are written"
@@ -101,6 +113,15 @@ expect_code 0 "Ends with 0: done; 1: done, with failures" "$mimik" --help
 claim "the help says with which code a command ends"
 expect_code 2 $'no command \'distnace\'\ndistance' "$mimik" distnace low.obj high.obj
 claim "an unknown command is named with the nearest"
+
+touch bs000_N_N_0.bnt
+for command in "warp --from box.csv --to moved.csv bs000_N_N_0.bnt -o nothing.ply" "distance low.obj bs000_N_N_0.bnt" "distance bs000_N_N_0.bnt low.obj"; do
+  expect_code 2 $'bs000_N_N_0.bnt: is a range scan\nWORK/faces/SUBJECT/bs000_N_N_0.ply' "$mimik" $command
+done
+expect_code 2 "give .csv, .ply, .obj, .stl or .vtp" "$mimik" warp --from box.csv --to moved.csv low.obj -o nothing.glb
+! grep -q pcd err.txt || fail "a format that is not written is offered"
+expect_code 2 ".csv, .ply, .obj, .stl or .vtp" "$mimik" warp --from box.csv --to moved.csv low.obj -o nothing.pcd
+claim "who gives a range scan is told how to get a mesh, and formats are offered that are written"
 
 grep -v '^b,' box.csv >fewer.csv
 printf 'f,1,1,1\ng,2,2,2\n' >>fewer.csv
