@@ -364,11 +364,11 @@ View parse_view(const std::string& name) {
         {"right", {-90, 0}},
         {"three-quarter-left", {35, 0}},
         {"three-quarter-right", {-35, 0}},
-        {"three-quarter", {35, 0}},
     };
+    const std::string wanted = name == "three-quarter" ? "three-quarter-left" : name;
     std::string names;
     for (const auto& [known, view] : views) {
-        if (known == name) return view;
+        if (known == wanted) return view;
         names += (names.empty() ? "" : ", ") + known;
     }
     throw InputError(fmt::format("view {} is not known; give one of {}", geometry::in_quotes(name), names));

@@ -9,6 +9,7 @@
 
 #include "database/bnt.h"
 #include "database/hidden_subjects.h"
+#include "figures/panel_scene.h"
 #include "geometry/csv.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
@@ -224,6 +225,13 @@ Panel load_panel(const PanelDescription& description) {
     if (!description.texture.empty()) database::refuse_hidden_file(description.texture);
     auto face = read_face(description.mesh, description.unit);
     panel.mesh = std::move(face.mesh);
+    if (panel.scalar) {
+        try {
+            (void)scalar_values(panel.mesh, panel.scalar->attribute);
+        } catch (const InputError& e) {  // drawn later, when nobody knows the file
+            throw InputError(fmt::format("{}: {}", description.mesh.string(), e.what()));
+        }
+    }
     if (!description.texture.empty()) {
         panel.texture = geometry::read_image(description.texture);
     } else if (description.textured) {

@@ -391,8 +391,10 @@ void write_expression_model(const std::filesystem::path& file, const ExpressionM
 ExpressionModel decode_expression_model(std::string_view text, const std::string& name) {
     using geometry::read_field;
     constexpr const char* mend = "make the model again with 'mimik model'";
-    return geometry::read_json_document(text, name, mend, [](const nlohmann::json& document) {
+    return geometry::read_json_document(text, name, mend, [&](const nlohmann::json& document) {
         ExpressionModel model;
+        if (!document.contains("kind"))
+            throw InputError(name + ": is no expression model; give a file of 'mimik model'");
         if (const auto kind = read_field<std::string>(document, "kind"); kind != model_file_kind)
             throw InputError(fmt::format("it is {}, not '{}'; give a file of 'mimik model'", geometry::in_quotes(kind),
                                          model_file_kind));

@@ -48,6 +48,7 @@ claim "subjects are found in capitals too, and one that is not there is named as
 "$mimik" animate work1 --source bs000 --target bs001 --au 12:0.5 -o measured.glb --quiet
 "$mimik" animate work1 --target bs001 --model models/bs000/AU12.json:0.5 -o stored.glb --quiet
 cmp measured.glb stored.glb
+expect_code 2 "scores1.json: is no expression model; give a file of 'mimik model'" "$mimik" animate work1 --target bs001 --model scores1.json -o nothing.ply
 expect_code 2 "nothing to animate" "$mimik" animate work1 --target bs001 -o nothing.ply
 "$mimik" model work1 --source bs000 --expression 12 --quiet
 cmp models/bs000/AU12.json work1/models/default/bs000/AU12.json
@@ -130,6 +131,9 @@ if [ "$can_draw" = yes ]; then
   for name in AU4_mean_on_bs001_default AU12_bs000_on_bs001_thesis AU4_AU12_series_bs000_on_bs001_default; do
     [ "$(head -c 4 "panels/$name.png" | tail -c 3)" = PNG ]
   done
+  expect_code 2 "neutral.ply: the mesh has no attribute 'nope'; it has: " "$mimik" figure neutral.ply --scalar nope -o nothing.png
+  expect_code 2 "give one of front, left, right, three-quarter-left, three-quarter-right" "$mimik" figure neutral.ply --view back -o nothing.png
+  ! grep -q 'three-quarter$' err.txt
   claim "panels of one source, of a mean, of the thesis and of a series are drawn"
 fi
 expect_code 2 "stand in --series" "$mimik" panels work1 --target bs001 --au 12:0.5 --series 0,1 -o nothing

@@ -465,7 +465,7 @@ TEST_F(WorkspaceTest, the_sheet_of_a_subject_hidden_since_is_deleted_by_the_next
 TEST_F(WorkspaceTest, a_selection_that_names_what_is_not_there_is_refused_by_name) {
     auto options = quick();
     options.subjects = {"BS000", "bs001", "bs777"};
-    EXPECT_THAT(message_of<InputError>([&] { (void)preprocess(options); }), HasSubstr("no subject BS777"));
+    EXPECT_THAT(message_of<InputError>([&] { (void)preprocess(options); }), HasSubstr("no subject bs777"));
     options.subjects = {"BS000", "bs001"};
     options.codes = {"AU12", "27"};
     EXPECT_THAT(message_of<InputError>([&] { (void)preprocess(options); }), HasSubstr("no scan of expression 27"));
