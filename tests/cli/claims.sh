@@ -13,6 +13,6 @@ expect_code() {  # code, words that the message must have (one per line), comman
   "$@" >out.txt 2>err.txt || code=$?
   [ "$code" -eq "$wanted" ] || { cat out.txt err.txt; fail "exit code $code, not $wanted: $*"; }
   while read -r word; do
-    cat out.txt err.txt | grep -qF -- "$word" || { cat out.txt err.txt; fail "no word of '$word': $*"; }
+    grep -qF -- "$word" out.txt err.txt || { cat out.txt err.txt; fail "no word of '$word': $*"; }
   done <<<"$words"
 }
