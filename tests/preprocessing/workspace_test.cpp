@@ -259,7 +259,7 @@ TEST_F(WorkspaceTest, a_folder_that_takes_no_faces_is_found_out_before_any_scan_
                 HasSubstr("file: is a file; give a folder"));
     EXPECT_THAT(
         message_of<InputError>([&] { (void)preprocess_database(database, folder_.path() / "file" / "x", quick()); }),
-        HasSubstr("its folder cannot be made"));
+        HasSubstr("file/x: the folder cannot be made"));
     EXPECT_EQ(geometry::read_text(folder_.path() / "file"), "mine");
 }
 
