@@ -164,7 +164,8 @@ TEST_F(Experiment, a_whole_face_that_was_not_scored_is_no_figure_in_any_table) {
 }
 
 TEST_F(Experiment, a_true_field_has_no_largest_step_in_any_table) {
-    for (const auto& row_json : nlohmann::json::parse(to_json(*report_)).at("rows"))
+    const auto document = nlohmann::json::parse(to_json(*report_));  // the loop would not keep it
+    for (const auto& row_json : document.at("rows"))
         EXPECT_EQ(row_json.at("expressions").at("12").at("largest_step_mm").is_null(), row_json.at("reference"))
             << row_json.at("method");
     const auto csv = to_csv(*report_);
