@@ -74,6 +74,7 @@ std::string to_markdown(const ExperimentReport& report) {
     }
     if (const auto bands = reference_bands(report); !bands.empty()) {
         std::vector<std::string> words;
+        words.reserve(bands.size());
         for (const auto& band : bands)
             words.push_back(fmt::format("{} {:.3f} (band {:.2f} to {:.2f})",
                                         band.kind == RowKind::mean ? "mean" : "from one source", band.explained,

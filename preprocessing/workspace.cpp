@@ -231,6 +231,7 @@ std::vector<const ScanEntry*> selected_scans(const database::ScanDatabase& datab
     unseen_codes = codes;
     const auto typed = [](const std::map<std::string, std::string>& words) {
         std::vector<std::string_view> list;
+        list.reserve(words.size());
         for (const auto& [compared, word] : words) list.push_back(word);
         return fmt::format("{}", fmt::join(list, ", "));
     };

@@ -115,9 +115,7 @@ std::size_t trim_neck(geometry::RangeScan& scan, const RasterLattice& lattice, d
         // Once the middle column is behind the chin, all that follows is neck.
         if (lattice.y0_mm + row * lattice.spacing_mm > chin.y())
             last_middle_z = chin.z();
-        else if (!scan.valid(at(middle)))
-            below_chin = true;
-        else if (last_middle_z - scan.points_mm[at(middle)].z() > joined_mm)
+        else if (!scan.valid(at(middle)) || last_middle_z - scan.points_mm[at(middle)].z() > joined_mm)
             below_chin = true;
         else
             last_middle_z = scan.points_mm[at(middle)].z();
