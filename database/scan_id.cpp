@@ -152,6 +152,18 @@ ScanId scan_id_from(std::string_view stem) {
     throw InputError(fmt::format("{} is no scan name such as bs000_LFAU_12_0", geometry::in_quotes(stem)));
 }
 
+namespace {
+
+/// A code becomes part of file names.
+std::string plain_code(std::string_view code) {
+    std::string plain(code);
+    for (char& c : plain)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '+') c = '-';
+    return plain;
+}
+
+}  // namespace
+
 std::optional<ScanId> parse_expression(std::string_view text) {
     std::string word;  // upper case; blanks and hyphens as the underscore that separates fields
     for (const char c : text) word += c == ' ' || c == '-' || c == '\t' ? '_' : upper(c);
@@ -162,7 +174,7 @@ std::optional<ScanId> parse_expression(std::string_view text) {
 
     if (const auto cut = word.find('_');
         cut != std::string::npos && known_group(word.substr(0, cut)) && word.find('_', cut + 1) == std::string::npos)
-        return ScanId{"", word.substr(0, cut), word.substr(cut + 1), 0};
+        return ScanId{"", word.substr(0, cut), plain_code(word.substr(cut + 1)), 0};
 
     for (const std::string_view emotion : {"ANGER", "DISGUST", "FEAR", "HAPPY", "SADNESS", "SURPRISE"})
         if (word == emotion) return ScanId{"", "E", word, 0};
@@ -182,7 +194,7 @@ std::optional<ScanId> parse_expression(std::string_view text) {
             return ScanId{"", group_of_action_unit(leading_number(code)), std::string(code), 0};
         // Bosphorus combinations: A22A25.
         if (compact.size() > 2 && compact[0] == 'A' && digit(compact[1]) && compact.find('A', 1) != std::string::npos)
-            return ScanId{"", "CAU", compact, 0};
+            return ScanId{"", "CAU", plain_code(compact), 0};
     } else if (std::all_of(parts.begin(), parts.end(),
                            [&](auto p) { return parse_action_unit_code(without_prefix(p)).has_value(); })) {
         std::string code;
@@ -190,8 +202,8 @@ std::optional<ScanId> parse_expression(std::string_view text) {
         return ScanId{"", "CAU", code, 0};
     }
 
-    std::string kept;
-    for (const char c : word) kept += std::isalnum(static_cast<unsigned char>(c)) ? c : '-';
+    std::string kept = plain_code(word);
+    std::replace(kept.begin(), kept.end(), '+', '-');
     return ScanId{"", "OTHER", kept, 0};
 }
 

@@ -213,7 +213,10 @@ private:
                    : decode_base64(peek, 3 * word);
         if (head.size() < word) truncated();
         const auto blocks = header_word(head, 0);
-        if (blocks == 0) return {};
+        if (blocks == 0) {
+            admit_bytes(0);
+            return {};
+        }
         if (head.size() < 3 * word || blocks > available() / word) truncated();
         const auto block_size = header_word(head, 1), last_size = header_word(head, 2);
         const auto sizes = take((3 + blocks) * word);

@@ -88,6 +88,8 @@ TEST(Expression, the_usual_spellings_find_their_group_and_code) {
                                                                         {"AU22+AU25", "CAU_A22A25"},
                                                                         {"YR_R10", "YR_R10"},
                                                                         {"bite lip", "OTHER_BITE-LIP"},
+                                                                        {"E lips\x1d/x", "E_LIPS--X"},
+                                                                        {"A1\nA2", "CAU_A1-A2"},
                                                                         {"5", "UFAU_5"}};
     for (const auto& [text, expected] : spellings) {
         const auto id = parse_expression(text);

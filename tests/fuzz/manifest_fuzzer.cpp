@@ -19,7 +19,7 @@ void fuzz_one(std::span<const std::uint8_t> bytes) {
 std::vector<std::string> seeds() {
     return {"subject,expression,scan,landmarks,sex,unit\nanna,N,a/x.ply,a/x.pp,f,mm\nanna,AU12_L,b.obj,,,cm\n",
             "subject,expression,scan\n\"b \"\"q\"\"\",AU22+AU25,../x.stl\n",
-            "scan,subject,expression\nx.pcd,J_D,bite lip\n"};
+            "scan,subject,expression\nx.pcd,J_D,bite lip\ny.pcd,J_D,e lips\x1d\n"};
 }
 
 }  // namespace mimik::fuzzing

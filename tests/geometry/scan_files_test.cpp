@@ -423,6 +423,17 @@ TEST(Vtp, a_compressed_array_of_another_length_than_the_points_is_refused_by_its
                 HasSubstr("array 'Points' has 1000000 entries, but NumberOfPoints is 1000"));
 }
 
+TEST(Vtp, a_compressed_array_of_no_blocks_is_no_array_of_three_points) {
+    // In base64: zero blocks, whatever stands behind.
+    EXPECT_THAT(refused(MeshFormat::vtp,
+                        "<VTKFile type=\"PolyData\" compressor=\"vtkZLibDataCompressor\"><PolyData>"
+                        "<Piece NumberOfPoints=\"3\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+                        "format=\"ascii\">0 0 0 1 0 0 0 1 0</DataArray></Points><PointData><DataArray type=\"UInt8\" "
+                        "Name=\"d\" format=\"binary\">AAAAAAMAAAAAAAAACwAAAA==</DataArray></PointData></Piece>"
+                        "</PolyData></VTKFile>"),
+                HasSubstr("array 'd' has 0 entries, but NumberOfPoints is 3"));
+}
+
 TEST(Vtp, a_truncated_file_is_refused_wherever_it_is_cut) {
     const TemporaryFolder folder;
     write_mesh(folder / "mesh.vtp", full_mesh(true));
