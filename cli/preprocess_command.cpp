@@ -117,8 +117,8 @@ int run(Arguments& arguments) {
         auto remarks = nlohmann::json::array();
         for (const auto& remark : database.remarks) remarks.push_back({{"remark", remark}});
         for (const auto& [scan, remark] : report.remarks) remarks.push_back({{"scan", scan}, {"remark", remark}});
-        nlohmann::json document = {{"remarks", remarks},
-                                   {"schema", 1},
+        nlohmann::json document = {{"schema", 1},
+                                   {"remarks", remarks},
                                    {"preprocessed", report.preprocessed},
                                    {"up_to_date", report.up_to_date},
                                    {"failures", failures},

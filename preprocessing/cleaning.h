@@ -7,11 +7,10 @@
 namespace mimik::preprocessing {
 
 struct CleaningOptions {
-    double spike_mm = 4.0;  ///< a point this far (in z) from the median of its neighbours is a spike; the steepest
-                            ///< surface that a scanner of 0.8 mm spacing still sees changes by less per point
-    double max_jump_mm =
-        6.0;                 ///< neighbours farther apart than this belong to different parts, unless a face joins them
-    double min_part = 0.05;  ///< parts smaller than this share of the largest are stray (hair tufts, collar)
+    double spike_mm = 4.0;     ///< a point this far (in z) from the median of its neighbours is a spike; the steepest
+                               ///< surface that a scanner of 0.8 mm spacing still sees changes by less per point
+    double max_jump_mm = 6.0;  ///< neighbours farther apart than this, and joined by no face, belong to different parts
+    double min_part = 0.05;    ///< parts smaller than this share of the largest are stray (hair tufts, collar)
     void check() const;
 };
 

@@ -57,10 +57,9 @@ struct GriddingReport {
 /// `mesh` draws the faces that a scan without a lattice has, whatever their winding, and the one nearest to the camera
 /// counts: the back of a head, ears and inner lips stay hidden, and where the surface drops out of sight the farther
 /// vertex is `bridged`. Rims are filled as above.
-/// A cloud has neither: points that lie behind one another cannot be told from a surface, and where more than a tenth
-/// of the triangles say so the scan is refused.
-/// @throws InputError for bad options, a scan with fewer than three valid points;
-/// NumericalError if all lie on a line.
+/// A cloud has neither: points that lie behind one another cannot be told from a surface (`seen_through` counts them).
+/// @throws InputError for bad options or a scan with fewer than three valid points; NumericalError if all lie on a
+/// line.
 [[nodiscard]] geometry::QuadGrid grid_scan(const geometry::RangeScan& scan, const GriddingOptions& options = {},
                                            GriddingReport* report = nullptr);
 
