@@ -30,12 +30,24 @@ void cgal_gridding(benchmark::State& state, double jitter) {
     for (auto _ : state) benchmark::DoNotOptimize(peers::griddata_cgal(points, grid.vertices_mm));
 }
 
-void mimik_delaunay(benchmark::State& state, double jitter) {
+std::vector<Eigen::Vector2d> planar_points(double jitter) {
     const auto scan = bench::make_scan(jitter);
     std::vector<Eigen::Vector2d> points;
     for (std::size_t i = 0; i < scan.points_mm.size(); ++i)
         if (scan.valid(i)) points.emplace_back(scan.points_mm[i].head<2>());
+    return points;
+}
+
+void mimik_delaunay(benchmark::State& state, double jitter) {
+    const auto points = planar_points(jitter);
     for (auto _ : state) benchmark::DoNotOptimize(geometry::delaunay(points));
+}
+
+void cgal_delaunay(benchmark::State& state, double jitter) {
+    const auto points = planar_points(jitter);
+    if (peers::delaunay_cgal(points).size() != geometry::delaunay(points).size())
+        return state.SkipWithError("CGAL makes another number of triangles");
+    for (auto _ : state) benchmark::DoNotOptimize(peers::delaunay_cgal(points));
 }
 
 // The peers triangulate every point; on an exact lattice Mimik's default splits the scanner's cells instead.
@@ -44,6 +56,9 @@ BENCHMARK_CAPTURE(mimik_gridding, general_by_cells, jitter_mm, true)->Unit(bench
 BENCHMARK_CAPTURE(mimik_gridding, lattice_every_point, 0.0, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(mimik_gridding, lattice, 0.0, true)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(mimik_delaunay, general, jitter_mm)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(mimik_delaunay, lattice, 0.0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(cgal_delaunay, general, jitter_mm)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(cgal_delaunay, lattice, 0.0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cgal_gridding, general, jitter_mm)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cgal_gridding, lattice, 0.0)->Unit(benchmark::kMillisecond);
 

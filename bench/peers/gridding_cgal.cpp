@@ -1,4 +1,6 @@
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -8,11 +10,29 @@
 
 namespace mimik::peers {
 
+namespace {
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+template <class Info>
+using TriangulationOf = CGAL::Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_with_info_2<Info, Kernel>>>;
+}  // namespace
+
+std::vector<geometry::Triangle> delaunay_cgal(std::span<const Eigen::Vector2d> points_mm) {
+    std::vector<std::pair<Kernel::Point_2, std::uint32_t>> input;
+    input.reserve(points_mm.size());
+    for (std::uint32_t i = 0; i < points_mm.size(); ++i)
+        input.emplace_back(Kernel::Point_2(points_mm[i].x(), points_mm[i].y()), i);
+    const TriangulationOf<std::uint32_t> triangulation(input.begin(), input.end());
+    std::vector<geometry::Triangle> triangles;
+    triangles.reserve(triangulation.number_of_faces());
+    for (const auto face : triangulation.finite_face_handles())
+        triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    return triangles;
+}
+
 std::vector<double> griddata_cgal(std::span<const geometry::Point> points_mm,
                                   std::span<const geometry::Point> vertices_mm) {
-    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-    using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<double, Kernel>;
-    using Triangulation = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase>>;
+    using Triangulation = TriangulationOf<double>;
     std::vector<std::pair<Kernel::Point_2, double>> input;
     input.reserve(points_mm.size());
     for (const auto& p : points_mm) input.emplace_back(Kernel::Point_2(p.x(), p.y()), p.z());
