@@ -5,7 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <optional>
+#include <utility>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <fmt/format.h>
@@ -128,7 +129,8 @@ public:
     }
 
     /// The first triangle, counter-clockwise, and the three outside it.
-    void begin(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    void begin(const Triangle& first) {
+        const auto [a, b, c] = first;
         vertex_ = {a, b, c, b, a, beyond, c, b, beyond, a, c, beyond};
         twin_ = {3, 6, 9, 0, 11, 7, 1, 5, 10, 2, 8, 4};
     }
@@ -238,7 +240,26 @@ private:
     std::uint32_t last_ = 0;
 };
 
+/// The first point, the next in another place and the next off their line, counter-clockwise; none without three such.
+std::optional<Triangle> first_triangle(std::span<const Planar> points, const Predicates& predicates) {
+    const auto next = [&](std::size_t from, const auto& wanted) {
+        while (from < points.size() && !wanted(points[from])) ++from;
+        return from;
+    };
+    const std::size_t second = next(1, [&](const Planar& p) { return p != points[0]; });
+    const std::size_t third =
+        next(second + 1, [&](const Planar& p) { return predicates.orientation(points[0], points[second], p) != 0; });
+    if (third >= points.size()) return std::nullopt;
+    Triangle found = {0, static_cast<std::uint32_t>(second), static_cast<std::uint32_t>(third)};
+    if (predicates.orientation(points[0], points[second], points[third]) < 0) std::swap(found[1], found[2]);
+    return found;
+}
+
 }  // namespace
+
+bool spans_triangle(std::span<const Planar> points_mm) {
+    return first_triangle(points_mm, Predicates(points_mm)).has_value();
+}
 
 std::vector<Triangle> delaunay(std::span<const Planar> points_mm) {
     for (std::size_t i = 0; i < points_mm.size(); ++i)
@@ -252,24 +273,15 @@ std::vector<Triangle> delaunay(std::span<const Planar> points_mm) {
     sorted.reserve(order.size());
     for (const auto i : order) sorted.push_back(points_mm[i]);
 
-    // Two that differ and the first one off their line come first; the rest keeps its order.
-    const auto off = [&](std::size_t from, auto&& wanted) {
-        while (from < sorted.size() && !wanted(sorted[from])) ++from;
-        return from;
-    };
-    const std::size_t second = off(1, [&](const Planar& p) { return p != sorted[0]; });
-    const std::size_t third =
-        off(second + 1, [&](const Planar& p) { return predicates.orientation(sorted[0], sorted[second], p) != 0; });
-    if (third >= sorted.size())
+    const auto first = first_triangle(sorted, predicates);
+    if (!first)
         throw NumericalError(fmt::format(
             "{} points lie on one line or in one place; a triangulation needs three that do not", points_mm.size()));
 
     Incremental triangulation(sorted, predicates);
-    const auto a = std::uint32_t{0}, b = static_cast<std::uint32_t>(second), c = static_cast<std::uint32_t>(third);
-    const bool left = predicates.orientation(sorted[a], sorted[b], sorted[c]) > 0;
-    triangulation.begin(a, left ? b : c, left ? c : b);
-    for (std::uint32_t p = 1; p < sorted.size(); ++p) {
-        if (p == b || p == c) continue;
+    triangulation.begin(*first);
+    for (std::uint32_t p = 0; p < sorted.size(); ++p) {
+        if (std::find(first->begin(), first->end(), p) != first->end()) continue;
         const std::uint32_t holder = triangulation.insert(p);
         order[holder] = std::min(order[holder], order[p]);
     }

@@ -18,4 +18,7 @@ namespace mimik::geometry {
 /// @throws InputError if a coordinate is not finite; NumericalError if there are not three points off one line.
 [[nodiscard]] std::vector<Triangle> delaunay(std::span<const Eigen::Vector2d> points_mm);
 
+/// Whether there are three points off one line.
+[[nodiscard]] bool spans_triangle(std::span<const Eigen::Vector2d> points_mm);
+
 }  // namespace mimik::geometry

@@ -62,16 +62,16 @@ std::vector<double> linspace(double low, double high, int count) {
 /// Draws triangles into a grid: each vertex that a triangle covers gets the triangle's height there.
 class Raster {
 public:
-    Raster(QuadGrid& grid, Samples samples, std::vector<double> x, std::vector<double> y)
-        : grid_(grid), samples_(samples), x_(std::move(x)), y_(std::move(y)), open_(y_.size(), x_.size()) {
+    Raster(QuadGrid& grid, std::vector<double> x, std::vector<double> y)
+        : grid_(grid), x_(std::move(x)), y_(std::move(y)), open_(y_.size(), x_.size()) {
         per_x_ = (grid.cols - 1) / (x_.back() - x_.front());
         per_y_ = (grid.rows - 1) / (y_.back() - y_.front());
     }
 
     /// A counter-clockwise triangle. Covered vertices that are still open take it; others only if `front` and it is
     /// nearer to the camera.
-    void draw(const Triangle& t, VertexOrigin origin, bool front) {
-        const Point &a = samples_.points_mm[t[0]], &b = samples_.points_mm[t[1]], &c = samples_.points_mm[t[2]];
+    void draw(const Samples& samples, const Triangle& t, VertexOrigin origin, bool front) {
+        const Point &a = samples.points_mm[t[0]], &b = samples.points_mm[t[1]], &c = samples.points_mm[t[2]];
         const auto [first_row, last_row] =
             range(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}), y_, per_y_);
         if (first_row > last_row) return;
@@ -106,12 +106,20 @@ public:
                 if (!open && z <= grid_.vertices_mm[vertex].z()) continue;
                 grid_.vertices_mm[vertex].z() = z;
                 grid_.origin[vertex] = origin;
-                if (!samples_.texture.empty())
+                if (!samples.texture.empty())
                     grid_.texture_coordinates[vertex] =
-                        u * samples_.texture[t[0]] + v * samples_.texture[t[1]] + w * samples_.texture[t[2]];
+                        u * samples.texture[t[0]] + v * samples.texture[t[1]] + w * samples.texture[t[2]];
                 if (open) --open_[static_cast<std::size_t>(row)];
             }
         }
+    }
+
+    /// Takes back what was drawn at a vertex.
+    void open(std::uint32_t vertex) {
+        grid_.vertices_mm[vertex].z() = nan;
+        grid_.origin[vertex] = VertexOrigin::outside;
+        if (!grid_.texture_coordinates.empty()) grid_.texture_coordinates[vertex] = {nan, nan};
+        ++open_[vertex / static_cast<std::uint32_t>(grid_.cols)];
     }
 
 private:
@@ -149,7 +157,6 @@ private:
     }
 
     QuadGrid& grid_;
-    Samples samples_;
     std::vector<double> x_, y_;
     std::vector<std::size_t> open_;  // vertices per row that nothing covers yet
     double per_x_ = 0.0, per_y_ = 0.0;
@@ -295,9 +302,9 @@ FacingMesh facing_triangles(const RangeScan& scan, const std::vector<std::uint8_
     return mesh;
 }
 
-/// Of `rim`, the points that no part of the drawn surface hides.
+/// Of `rim`, the points that no part of the drawn surface hides and that do not lie in a pit.
 std::vector<std::uint32_t> in_sight(const std::vector<std::uint32_t>& rim, std::span<const Point> points_mm,
-                                    const QuadGrid& grid) {
+                                    const QuadGrid& grid, const std::vector<std::uint8_t>& pit) {
     constexpr double in_front_mm = 5.0;  // more than a steep cheek rises from one grid line to the next
     const Point low = grid.vertices_mm.front(), high = grid.vertices_mm.back();
     std::vector<std::uint32_t> seen;
@@ -306,6 +313,7 @@ std::vector<std::uint32_t> in_sight(const std::vector<std::uint32_t>& rim, std::
         const auto row = std::lround((p.y() - low.y()) / (high.y() - low.y()) * (grid.rows - 1));
         const auto col = std::lround((p.x() - low.x()) / (high.x() - low.x()) * (grid.cols - 1));
         const auto cell = grid.index(static_cast<int>(row), static_cast<int>(col));
+        if (pit[cell]) continue;  // the vertices beside the pit stand for its edge
         if (!grid.inside(cell) || grid.vertices_mm[cell].z() < p.z() + in_front_mm) seen.push_back(v);
     }
     return seen;
@@ -313,38 +321,102 @@ std::vector<std::uint32_t> in_sight(const std::vector<std::uint32_t>& rim, std::
 
 constexpr double steepest = 6.0;  // rise over run: scanners lose surfaces that rise by more than about 5
 
+bool is_drop(const Point& p, const Point& q) {
+    return std::abs(p.z() - q.z()) > steepest * std::sqrt(planar_squared(p, q));
+}
+
+/// Calls visit(a, b) for the vertices at both ends of every edge of the grid.
+template <class Visit>
+void for_each_edge(const QuadGrid& grid, const Visit& visit) {
+    for (int row = 0; row < grid.rows; ++row)
+        for (int col = 0; col < grid.cols; ++col) {
+            if (col + 1 < grid.cols) visit(grid.index(row, col), grid.index(row, col + 1));
+            if (row + 1 < grid.rows) visit(grid.index(row, col), grid.index(row + 1, col));
+        }
+}
+
+/// The vertices of pits: patches of drawn surface that drops set apart on all sides, behind what surrounds them, as the
+/// inside of the head is where a mesh has openings for eyes and mouth. The largest patch is the face and no pit.
+std::vector<std::uint8_t> in_pits(const QuadGrid& grid) {
+    // Patches: vertices joined by edges that are no drops (union-find; the root is the lowest vertex).
+    std::vector<std::uint32_t> parent(grid.size());
+    std::iota(parent.begin(), parent.end(), 0U);
+    const auto root = [&](std::uint32_t v) {
+        while (parent[v] != v) v = parent[v] = parent[parent[v]];
+        return v;
+    };
+    const auto joined = [&](std::uint32_t a, std::uint32_t b) {
+        return grid.inside(a) && grid.inside(b) && !is_drop(grid.vertices_mm[a], grid.vertices_mm[b]);
+    };
+    for_each_edge(grid, [&](std::uint32_t a, std::uint32_t b) {
+        if (!joined(a, b)) return;
+        const auto one = root(a), other = root(b);
+        parent[std::max(one, other)] = std::min(one, other);
+    });
+    std::vector<std::uint32_t> vertices(grid.size(), 0);
+    for (std::uint32_t v = 0; v < grid.size(); ++v)
+        if (grid.inside(v)) ++vertices[root(v)];
+    const auto face = static_cast<std::uint32_t>(std::max_element(vertices.begin(), vertices.end()) - vertices.begin());
+
+    // A pit may have a deeper one in it: what is behind a patch speaks against it only while it is no pit itself.
+    std::vector<std::uint8_t> pit(grid.size(), 1);
+    pit[face] = 0;
+    for (bool changed = true; changed;) {
+        changed = false;
+        const auto spare = [&](std::uint32_t patch) {
+            changed = changed || pit[patch] != 0;
+            pit[patch] = 0;
+        };
+        for (std::uint32_t v = 0; v < grid.size(); ++v) {
+            const auto row = v / static_cast<std::uint32_t>(grid.cols), col = v % static_cast<std::uint32_t>(grid.cols);
+            if (row == 0 || col == 0 || row + 1 == static_cast<std::uint32_t>(grid.rows) ||
+                col + 1 == static_cast<std::uint32_t>(grid.cols))
+                spare(root(v));
+        }
+        for_each_edge(grid, [&](std::uint32_t a, std::uint32_t b) {
+            const auto one = root(a), other = root(b);
+            if (one == other) return;
+            if (!grid.inside(a)) return spare(other);
+            if (!grid.inside(b)) return spare(one);
+            const bool a_nearer = grid.vertices_mm[a].z() > grid.vertices_mm[b].z();
+            if (const auto behind = a_nearer ? other : one; pit[behind] == 0) spare(a_nearer ? one : other);
+        });
+    }
+    std::vector<std::uint8_t> result(grid.size(), 0);
+    for (std::uint32_t v = 0; v < grid.size(); ++v) result[v] = grid.inside(v) && pit[root(v)] != 0 ? 1 : 0;
+    return result;
+}
+
+/// The drawn vertices next to a pit.
+std::vector<std::uint32_t> beside(const QuadGrid& grid, const std::vector<std::uint8_t>& pit) {
+    std::vector<std::uint8_t> next(grid.size(), 0);
+    for_each_edge(grid, [&](std::uint32_t a, std::uint32_t b) {
+        if (pit[a] != pit[b]) next[pit[a] ? b : a] = 1;
+    });
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t v = 0; v < grid.size(); ++v)
+        if (next[v]) result.push_back(v);
+    return result;
+}
+
 /// Where the surface drops out of sight (from the jaw to the neck, from an ear to the head) the farther vertex no
 /// longer counts as measured: what lies between the two was not seen.
 void cut_at_drops(QuadGrid& grid) {
     std::vector<std::uint32_t> beyond;
-    const auto compare = [&](std::uint32_t a, std::uint32_t b) {
+    for_each_edge(grid, [&](std::uint32_t a, std::uint32_t b) {
         if (!grid.measured(a) || !grid.measured(b)) return;
         const Point &p = grid.vertices_mm[a], &q = grid.vertices_mm[b];
-        if (std::abs(p.z() - q.z()) > steepest * std::sqrt(planar_squared(p, q)))
-            beyond.push_back(p.z() < q.z() ? a : b);
-    };
-    for (int row = 0; row < grid.rows; ++row)
-        for (int col = 0; col < grid.cols; ++col) {
-            if (col + 1 < grid.cols) compare(grid.index(row, col), grid.index(row, col + 1));
-            if (row + 1 < grid.rows) compare(grid.index(row, col), grid.index(row + 1, col));
-        }
+        if (is_drop(p, q)) beyond.push_back(p.z() < q.z() ? a : b);
+    });
     for (const auto v : beyond) grid.origin[v] = VertexOrigin::bridged;
 }
 
-/// Share of the triangles between close points whose corners lie far behind one another: hardly any on a surface that a
-/// scanner saw, most of them where the back of a head shows through.
-double share_seen_through(const Samples& samples, const std::vector<Triangle>& triangles, double max_edge_mm) {
+/// Whether the corners of a triangle lie so far behind one another that it joins front and back.
+bool joins_front_and_back(const Samples& samples, const Triangle& t, double planar_squared_mm) {
     constexpr double behind_mm = 20.0;
-    std::size_t close = 0, through = 0;
-    for (const auto& t : triangles) {
-        const double squared = longest_squared(samples, t);
-        if (squared > max_edge_mm * max_edge_mm) continue;
-        ++close;
-        const auto& p = samples.points_mm;
-        const auto [low, high] = std::minmax({p[t[0]].z(), p[t[1]].z(), p[t[2]].z()});
-        if (high - low > std::max(behind_mm, steepest * std::sqrt(squared))) ++through;
-    }
-    return close == 0 ? 0.0 : static_cast<double>(through) / static_cast<double>(close);
+    const auto& p = samples.points_mm;
+    const auto [low, high] = std::minmax({p[t[0]].z(), p[t[1]].z(), p[t[2]].z()});
+    return high - low > std::max(behind_mm, steepest * std::sqrt(planar_squared_mm));
 }
 
 /// The valid points, and where several share x and y their mean at the lowest of them: the one that delaunay() names.
@@ -458,25 +530,34 @@ QuadGrid grid_scan(const RangeScan& scan, const GriddingOptions& options, Griddi
     // Measured ones first: a vertex on an edge between the two kinds is measured.
     const auto draw_all = [](Raster& raster, const Samples& samples, const std::vector<Triangle>& triangles,
                              double max_edge_mm) {
-        std::vector<std::uint32_t> long_ones;
+        std::vector<std::uint32_t> bridges;
+        std::size_t joining = 0;
         for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-            if (longest_squared(samples, triangles[t]) > max_edge_mm * max_edge_mm)
-                long_ones.push_back(t);
+            const double squared = longest_squared(samples, triangles[t]);
+            const bool close = squared <= max_edge_mm * max_edge_mm;
+            const bool joins = close && joins_front_and_back(samples, triangles[t], squared);
+            joining += joins ? 1 : 0;
+            if (!close || joins)
+                bridges.push_back(t);
             else
-                raster.draw(triangles[t], VertexOrigin::measured, false);
+                raster.draw(samples, triangles[t], VertexOrigin::measured, false);
         }
-        for (const auto t : long_ones) raster.draw(triangles[t], VertexOrigin::bridged, false);
+        for (const auto t : bridges) raster.draw(samples, triangles[t], VertexOrigin::bridged, false);
+        const std::size_t close = triangles.size() - bridges.size() + joining;
+        return close == 0 ? 0.0 : static_cast<double>(joining) / static_cast<double>(close);
     };
-    const auto fill_rims = [&](Raster& raster, const Samples& samples, const std::vector<std::uint32_t>& rim,
-                               double max_edge_mm) {
-        std::vector<Planar> points;
-        points.reserve(rim.size());
-        for (const auto v : rim) points.emplace_back(p[v].x(), p[v].y());
-        if (points.size() < 3) return;  // a closed surface
-        auto between = geometry::delaunay(points);
-        for (auto& t : between)
-            for (auto& v : t) v = rim[v];
-        draw_all(raster, samples, between, max_edge_mm);
+    const auto points_of = [&](const std::vector<std::uint32_t>& rim) {
+        Merged some;
+        for (const auto v : rim) {
+            some.points_mm.push_back(p[v]);
+            if (!scan.texture_coordinates.empty()) some.texture.push_back(scan.texture_coordinates[v]);
+        }
+        return some;
+    };
+    const auto fill_between = [&](Raster& raster, const Merged& rim, double max_edge_mm) {
+        const auto across = planar(rim.points_mm);
+        if (!geometry::spans_triangle(across)) return;  // a closed surface, or slits in one
+        draw_all(raster, {rim.points_mm, rim.texture}, geometry::delaunay(across), max_edge_mm);
     };
     if (options.use_lattice && scan.organised()) {
         made.method = GriddingMethod::lattice;
@@ -485,29 +566,36 @@ QuadGrid grid_scan(const RangeScan& scan, const GriddingOptions& options, Griddi
         made.folded_triangles = lattice.folded;
         made.rim_points = lattice.rim.size();
         const Samples samples{p, scan.texture_coordinates};
-        Raster raster(grid, samples, x, y);
-        for (const auto& t : lattice.triangles) raster.draw(t, VertexOrigin::measured, true);
-        fill_rims(raster, samples, lattice.rim, max_edge_mm);
+        Raster raster(grid, x, y);
+        for (const auto& t : lattice.triangles) raster.draw(samples, t, VertexOrigin::measured, true);
+        fill_between(raster, points_of(lattice.rim), max_edge_mm);
     } else if (options.use_lattice && scan.faces.size() > 0) {
         made.method = GriddingMethod::mesh;
         const auto mesh = facing_triangles(scan, valid);
         const Samples samples{p, scan.texture_coordinates};
-        Raster raster(grid, samples, x, y);
-        for (const auto& t : mesh.triangles) raster.draw(t, VertexOrigin::measured, true);
+        Raster raster(grid, x, y);
+        for (const auto& t : mesh.triangles) raster.draw(samples, t, VertexOrigin::measured, true);
+        const auto pit = in_pits(grid);
+        auto rim = points_of(in_sight(mesh.rim, p, grid, pit));
+        made.rim_points = rim.points_mm.size();
+        // A pit is bridged from its edge, where the mesh need not have a border.
+        for (const auto v : beside(grid, pit)) {
+            rim.points_mm.push_back(grid.vertices_mm[v]);
+            if (!grid.texture_coordinates.empty()) rim.texture.push_back(grid.texture_coordinates[v]);
+        }
+        for (std::uint32_t v = 0; v < grid.size(); ++v)
+            if (pit[v]) raster.open(v);
+        made.pit_vertices = static_cast<std::size_t>(std::count(pit.begin(), pit.end(), std::uint8_t{1}));
         cut_at_drops(grid);
-        const auto rim = in_sight(mesh.rim, p, grid);
-        made.rim_points = rim.size();
-        fill_rims(raster, samples, rim, bound(triangle_spacing(samples, mesh.triangles)));
+        fill_between(raster, rim, bound(triangle_spacing(samples, mesh.triangles)));
     } else {
         auto merged = gather(scan, valid, made.points);
         const auto all = geometry::delaunay(planar(merged.points_mm));
         if (corners_of(all, merged.points_mm.size()) < merged.points_mm.size()) average_duplicates(merged);
         made.duplicates = merged.duplicates;
         const Samples samples{merged.points_mm, merged.texture};
-        Raster raster(grid, samples, x, y);
-        const double max_edge_mm = bound(triangle_spacing(samples, all));
-        made.seen_through = share_seen_through(samples, all, max_edge_mm);
-        draw_all(raster, samples, all, max_edge_mm);
+        Raster raster(grid, x, y);
+        made.seen_through = draw_all(raster, samples, all, bound(triangle_spacing(samples, all)));
     }
     for (const auto origin : grid.origin) {
         made.measured += origin == VertexOrigin::measured ? 1 : 0;

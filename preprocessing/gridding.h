@@ -39,7 +39,8 @@ struct GriddingReport {
     std::size_t duplicates = 0;        ///< points that share x and y with another; z was averaged (delaunay only)
     std::size_t folded_triangles = 0;  ///< lattice triangles seen from behind; left out (lattice only)
     std::size_t rim_points = 0;        ///< points on outer borders and rims of holes (not delaunay)
-    double seen_through = 0.0;         ///< share of the triangles that join front and back (delaunay only)
+    std::size_t pit_vertices = 0;      ///< vertices that show the inside of a head through an opening (mesh only)
+    double seen_through = 0.0;         ///< share of the close triangles that join front and back (delaunay only)
     double spacing_mm = 0.0;           ///< median distance of neighbours in x-y
     double max_edge_mm = 0.0;          ///< the bound that was used
 };
@@ -56,8 +57,10 @@ struct GriddingReport {
 /// one nearest to the camera (highest z) counts.
 /// `mesh` draws the faces that a scan without a lattice has, whatever their winding, and the one nearest to the camera
 /// counts: the back of a head, ears and inner lips stay hidden, and where the surface drops out of sight the farther
-/// vertex is `bridged`. Rims are filled as above.
-/// A cloud has neither: points that lie behind one another cannot be told from a surface (`seen_through` counts them).
+/// vertex is `bridged`. What is seen through an opening - behind, and set apart by drops on all sides, as the inside of
+/// the head where there are no eyeballs - is taken for a hole. Rims are filled as above.
+/// A cloud has neither: where points lie behind one another, close triangles that join front and back are `bridged`,
+/// and `seen_through` counts them.
 /// @throws InputError for bad options or a scan with fewer than three valid points; NumericalError if all lie on a
 /// line.
 [[nodiscard]] geometry::QuadGrid grid_scan(const geometry::RangeScan& scan, const GriddingOptions& options = {},

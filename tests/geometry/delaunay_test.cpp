@@ -197,6 +197,10 @@ TEST(Delaunay, points_on_a_line_and_bad_points_are_refused) {
     EXPECT_THAT([&] { (void)delaunay(line); }, ThrowsMessage<NumericalError>(HasSubstr("4 points lie on one line")));
     EXPECT_THROW((void)delaunay(std::vector<Planar>{}), NumericalError);
     EXPECT_THAT([&] { (void)delaunay(bad); }, ThrowsMessage<InputError>(HasSubstr("point 2")));
+    EXPECT_FALSE(spans_triangle(line));
+    EXPECT_FALSE(spans_triangle({}));
+    EXPECT_FALSE(spans_triangle(std::vector<Planar>{{1, 2}, {1, 2}, {3, 4}}));
+    EXPECT_TRUE(spans_triangle(std::vector<Planar>{{1, 2}, {1, 2}, {3, 4}, {3, 5}}));
 }
 
 }  // namespace

@@ -291,6 +291,61 @@ TEST(Gridding, of_a_head_with_a_back_the_face_is_seen_whatever_the_winding) {
     }
 }
 
+TEST(Gridding, through_an_opening_in_a_mesh_the_inside_of_the_head_is_not_measured) {
+    for (const bool turned : {false, true}) {
+        auto scan = head(turned);
+        // Openings for both eyes; behind the one on the left a socket 30 mm deep, itself open towards the back.
+        const auto from_eye = [](const Point& p, double side) { return std::hypot(p.x() - side * 32, p.y() - 35); };
+        geometry::Faces faces;
+        for (std::size_t f = 0; f < scan.faces.size(); ++f) {
+            const Point& p = scan.points_mm[scan.faces[f][0]];
+            if (p.z() < -100 || (from_eye(p, 1) > 9 && from_eye(p, -1) > 9)) faces.add(scan.faces[f]);
+        }
+        const auto count = static_cast<std::uint32_t>(scan.points_mm.size());
+        for (int k = 0; k < 16; ++k)
+            for (const double radius : {4.0, 12.0})
+                scan.points_mm.emplace_back(32 + radius * std::cos(k * 0.3927), 35 + radius * std::sin(k * 0.3927),
+                                            -50);
+        for (std::uint32_t k = 0; k < 16; ++k) {
+            const std::uint32_t i = count + 2 * k, j = count + 2 * ((k + 1) % 16);
+            faces.add(std::array<std::uint32_t, 4>{i, i + 1, j + 1, j});
+        }
+        scan.faces = faces;
+        GriddingOptions options;
+        options.max_edge_mm = 2.9;  // the diagonal of a cell of the front
+        GriddingReport report;
+        const auto grid = grid_scan(scan, options, &report);
+        EXPECT_GT(report.pit_vertices, 2U * 200);  // a disk of 8 mm has 250 cells of 0.9 mm
+        EXPECT_LT(report.pit_vertices, 2U * 450);
+        std::size_t bridged = 0;
+        for (std::size_t v = 0; v < grid.size(); ++v) {
+            const auto& p = grid.vertices_mm[v];
+            if (std::abs(p.x()) > 59 || std::abs(p.y()) > 59) continue;
+            bridged += grid.measured(v) ? 0 : 1;
+            // Straight across 20 mm of an eye hollow 5 mm deep.
+            EXPECT_NEAR(p.z(), test::AnalyticFace::depth(p.x(), p.y()), grid.measured(v) ? 0.9 : 5.0) << p.transpose();
+        }
+        EXPECT_GE(bridged, report.pit_vertices * 9 / 10);  // all but slivers at the rim
+    }
+}
+
+TEST(Gridding, a_closed_mesh_with_a_slit_has_nothing_to_fill) {
+    RangeScan scan;  // a box; one edge of its front is split on one side only
+    for (const double z : {-100.0, 0.0})
+        for (const double y : {0.0, 20.0})
+            for (const double x : {0.0, 20.0}) scan.points_mm.emplace_back(x, y, z);
+    scan.points_mm.emplace_back(10, 0, 0);
+    using Quad = std::array<std::uint32_t, 4>;
+    for (const auto& quad : {Quad{0, 2, 3, 1}, Quad{0, 1, 5, 4}, Quad{2, 6, 7, 3}, Quad{0, 4, 6, 2}, Quad{1, 3, 7, 5}})
+        scan.faces.add(quad);
+    scan.faces.add(std::array<std::uint32_t, 5>{4, 8, 5, 7, 6});
+    GriddingReport report;
+    const auto grid = grid_scan(scan, {}, &report);
+    EXPECT_EQ(report.rim_points, 3U);
+    EXPECT_EQ(report.measured, grid.size());
+    for (const auto& p : grid.vertices_mm) EXPECT_EQ(p.z(), 0.0);
+}
+
 TEST(Gridding, no_skirt_hangs_from_a_jaw_to_the_neck_behind_it) {
     RangeScan scan;  // two sheets that overlap, 40 mm apart
     scan.points_mm = {{0, 0, 0},   {20, 0, 0},   {20, 12, 0},  {0, 12, 0},
@@ -316,6 +371,23 @@ TEST(Gridding, a_cloud_that_is_seen_through_says_so) {
     scan.points_mm.resize(scan.points_mm.size() / 2);
     (void)grid_scan(scan, {}, &report);
     EXPECT_EQ(report.seen_through, 0.0);
+}
+
+TEST(Gridding, what_joins_front_and_back_of_a_cloud_is_not_measured) {
+    auto scan = head(false);
+    scan.faces = {};
+    const std::size_t front = scan.points_mm.size() / 2;
+    for (std::size_t i = front; i < scan.points_mm.size(); ++i)
+        if (i % 97 != 0) scan.points_mm[i] = Point(nan, nan, nan);
+    GriddingReport report;
+    const auto grid = grid_scan(scan, {}, &report);
+    EXPECT_GT(report.seen_through, 0.02);  // one point of the back in 97 is a corner of 6 of 2 * 97 triangles
+    EXPECT_LT(report.seen_through, 0.04);
+    for (std::size_t v = 0; v < grid.size(); ++v) {
+        const auto& p = grid.vertices_mm[v];
+        if (std::abs(p.x()) > 59 || std::abs(p.y()) > 59 || !grid.measured(v)) continue;
+        ASSERT_NEAR(p.z(), test::AnalyticFace::depth(p.x(), p.y()), 0.9) << p.transpose();
+    }
 }
 
 TEST(Gridding, points_that_share_x_and_y_are_averaged) {
