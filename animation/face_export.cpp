@@ -1,5 +1,6 @@
 #include "animation/face_export.h"
 
+#include <array>
 #include <set>
 
 #include <fmt/format.h>
@@ -19,17 +20,19 @@ using geometry::Vector;
 
 namespace {
 
-/// The grid with the given displacement of its neutral vertices, in the frame asked for.
-Mesh mesh_of(const geometry::QuadGrid& neutral, const std::vector<Vector>& displacement_mm, const TargetFace& target,
-             const ExportOptions& options, std::vector<std::uint32_t>* kept_vertices = nullptr) {
+enum class Positions { neutral, animated };
+
+/// The grid in the frame asked for, with the displacement of its neutral vertices as an attribute.
+Mesh mesh_of(const AnimatedFace& animated, const TargetFace& target, const ExportOptions& options, Positions positions,
+             std::vector<std::uint32_t>* kept_vertices = nullptr) {
     const bool average = options.frame == OutputFrame::average;
     std::vector<std::uint32_t> kept;
-    Mesh mesh = geometry::to_mesh(neutral, options.bridged, &kept);
+    Mesh mesh = geometry::to_mesh(target.face().grid, options.bridged, &kept);
     geometry::VertexAttribute displacement{"displacement_mm", 3, {}};
     for (std::size_t k = 0; k < kept.size(); ++k) {
-        Vector d = displacement_mm[kept[k]];
+        Vector d = animated.displacement_mm[kept[k]];
         auto& position_mm = mesh.vertices_mm[k];
-        position_mm += d;
+        if (positions == Positions::animated) position_mm += d;
         if (average) {
             position_mm = target.average_from_scan() * position_mm;
             d = target.average_from_scan().linear() * d;
@@ -71,10 +74,8 @@ std::vector<std::string> write_glb_face(const std::filesystem::path& file, const
             shapes.push_back({names[k], &animated.fields_mm[k]});
         }
     }
-    const auto& grid = target.face().grid;
-    const std::vector<Vector> still(grid.size(), Vector::Zero());
     std::vector<std::uint32_t> kept, source;
-    const auto neutral = mesh_of(grid, still, target, options, &kept);
+    const auto neutral = mesh_of(animated, target, options, Positions::neutral, &kept);
     auto mesh = geometry::glb_mesh(neutral, &source);
     mesh.name = target.face().id.subject;
     if (!texture_file.empty()) mesh.texture_png = geometry::read_as_png(texture_file);
@@ -92,10 +93,36 @@ std::vector<std::string> write_glb_face(const std::filesystem::path& file, const
     return remarks;
 }
 
+/// Attributes as a table, a row per vertex; PLY names their components likewise.
+void write_vertex_values(const std::filesystem::path& file, const Mesh& mesh) {
+    constexpr std::array axes = {"_x", "_y", "_z"};
+    geometry::write_atomically(file, [&](std::ostream& out) {
+        out << "vertex";
+        for (const auto& attribute : mesh.attributes)
+            for (int c = 0; c < attribute.components; ++c)
+                out << ',' << attribute.name << (attribute.components > 1 ? axes.at(static_cast<std::size_t>(c)) : "");
+        out << '\n';
+        for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+            out << v + 1;
+            for (const auto& attribute : mesh.attributes) {
+                const auto per_vertex = static_cast<std::size_t>(attribute.components);
+                for (std::size_t c = 0; c < per_vertex; ++c)
+                    out << fmt::format(",{:.17g}", attribute.values[v * per_vertex + c]);
+            }
+            out << '\n';
+        }
+    });
+}
+
 }  // namespace
 
+std::filesystem::path vertex_values_file(const std::filesystem::path& file) {
+    if (geometry::lower_case(file.extension().string()) != ".obj") return {};
+    return file.parent_path() / (file.stem().string() + "_vertices.csv");
+}
+
 Mesh to_mesh(const AnimatedFace& animated, const TargetFace& target, const ExportOptions& options) {
-    return mesh_of(target.face().grid, animated.displacement_mm, target, options);
+    return mesh_of(animated, target, options, Positions::animated);
 }
 
 std::vector<std::string> write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated,
@@ -114,8 +141,15 @@ std::vector<std::string> write_animated_face(const std::filesystem::path& file, 
         geometry::write_atomically(copy, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
         write_options.texture_file = copy.filename().string();
     }
-    geometry::write_mesh(file, to_mesh(animated, target, options), write_options);
-    return {};
+    const auto mesh = to_mesh(animated, target, options);
+    std::vector<std::string> remarks;
+    if (const auto values = vertex_values_file(file); !values.empty()) {
+        write_vertex_values(values, mesh);
+        remarks.push_back(
+            fmt::format("an OBJ holds no values per vertex: displacement and origin are in {}", values.string()));
+    }
+    geometry::write_mesh(file, mesh, write_options);
+    return remarks;
 }
 
 }  // namespace mimik::animation

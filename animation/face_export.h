@@ -30,9 +30,15 @@ struct NamedMagnitude {
     std::string arkit_shape = {};  ///< kept beside the name; empty: ARKit has none
 };
 
+/// Where the attributes of an animated face lie that is written as `file`: beside face.obj in face_vertices.csv; empty
+/// for the other formats, which hold them.
+[[nodiscard]] std::filesystem::path vertex_values_file(const std::filesystem::path& file);
+
 /// Writes .ply, .obj, .vtp (the animated face; texture of face.ply copied beside it as face_texture.png) or .glb (the
 /// neutral face with one morph target per expression set to its magnitude, metres, texture embedded). Morph targets add
-/// up, so several expressions combined in parallel are one target, the resultant, "AU12+AU4".
+/// up, so several expressions combined in parallel are one target, the resultant, "AU12+AU4". The attributes of to_mesh
+/// go along: in a .glb as _DISPLACEMENT_MM (of all expressions as they are set) and _ORIGIN, of an .obj in a table
+/// beside it (vertex_values_file).
 /// @param texture_file  PNG or JPEG of the scan; empty: none.
 /// @param names  one per expression, in the order of `animated.fields_mm`; used by GLB only.
 /// @return remarks: what the file cannot hold as it was asked for.

@@ -144,20 +144,21 @@ int run(Arguments& arguments) {
                             {"sources", models[k].sources},
                             {"points", models[k].points.size()},
                             {"largest_displacement_mm", models[k].largest_displacement_mm()}});
-        std::cout << nlohmann::json{{"schema", 1},
-                                    {"target", neutral.id.name()},
-                                    {"source", source_words},
-                                    {"method", arguments.method.name},
-                                    {"frame", arguments.frame},
-                                    {"units", "mm"},
-                                    {"expressions", list},
-                                    {"largest_displacement_mm", extent.largest_displacement_mm},
-                                    {"largest_neighbour_step_mm", extent.largest_neighbour_step_mm},
-                                    {"remarks", remarks},
-                                    {"failures", failures},
-                                    {"output", arguments.output}}
-                         .dump(1)
-                  << '\n';
+        nlohmann::json document = {{"schema", 1},
+                                   {"target", neutral.id.name()},
+                                   {"source", source_words},
+                                   {"method", arguments.method.name},
+                                   {"frame", arguments.frame},
+                                   {"units", "mm"},
+                                   {"expressions", list},
+                                   {"largest_displacement_mm", extent.largest_displacement_mm},
+                                   {"largest_neighbour_step_mm", extent.largest_neighbour_step_mm},
+                                   {"remarks", remarks},
+                                   {"failures", failures},
+                                   {"output", arguments.output}};
+        if (const auto values = animation::vertex_values_file(arguments.output); !values.empty())
+            document["vertex_values"] = values.string();
+        std::cout << document.dump(1) << '\n';
     } else {
         if (!arguments.common.quiet)
             for (const auto& remark : remarks) std::cerr << "note: " << remark << '\n';
@@ -202,10 +203,14 @@ void add_animate_command(CLI::App& app, int& exit_code) {
     command->add_option("--frame", arguments->frame, "Millimetres of the target's own scan, or of the average face")
         ->check(CLI::IsMember({"scanner", "average"}))
         ->capture_default_str();
-    command->add_flag("--keep-bridged", arguments->keep_bridged, "Keep surface over holes (attribute origin = 2)");
+    command->add_flag("--keep-bridged", arguments->keep_bridged,
+                      "Keep surface over holes (origin 2: PLY and VTP attribute, _ORIGIN in GLB, OBJ's CSV)");
     command->add_flag("--arkit-names", arguments->arkit_names,
                       "Name the morph targets of a GLB as ARKit does, where it has a name");
-    command->add_option("-o,--output", arguments->output, ".ply, .obj, .vtp or .glb")->required();
+    command
+        ->add_option("-o,--output", arguments->output,
+                     ".ply, .obj, .vtp or .glb; of an .obj the values per vertex in <stem>_vertices.csv")
+        ->required();
     arguments->method.add_to(*command);
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,7 @@ constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 // Numbers that the glTF 2.0 specification fixes.
 constexpr int type_uint8 = 5121, type_uint32 = 5125, type_float = 5126;
 constexpr int target_vertices = 34962, target_indices = 34963;
+constexpr std::array<const char*, 4> vector_types = {"SCALAR", "VEC2", "VEC3", "VEC4"};
 constexpr std::array<std::uint8_t, 8> png_signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
 Json object_of(const std::vector<std::pair<std::string, std::string>>& entries) {
@@ -61,6 +63,13 @@ public:
             append(bytes_, static_cast<float>(1.0 - t.y()));
         }
         return keep(end_view(view, type_float, "VEC2", coordinates.size()));
+    }
+
+    std::size_t add_attribute(const VertexAttribute& attribute) {
+        const auto view = begin_view(target_vertices);
+        for (const double value : attribute.values) append(bytes_, static_cast<float>(value));
+        const auto components = static_cast<std::size_t>(attribute.components);
+        return keep(end_view(view, type_float, vector_types[components - 1], attribute.values.size() / components));
     }
 
     std::size_t add_colours(std::span<const std::array<std::uint8_t, 3>> colours) {
@@ -125,6 +134,14 @@ bool finite_as_float(const Vectorlike& v) {
     return v.template cast<float>().allFinite();
 }
 
+/// The name in glTF of a vertex attribute of Mimik's own: "displacement_mm" is _DISPLACEMENT_MM.
+std::string semantic(const VertexAttribute& attribute) {
+    std::string name = '_' + attribute.name;
+    for (char& c : name)
+        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    return name;
+}
+
 void check(const GlbMesh& mesh) {
     const auto n = mesh.positions_mm.size();
     const auto refuse = [&](const std::string& what) {
@@ -166,6 +183,23 @@ void check(const GlbMesh& mesh) {
                 if (!finite_as_float(target.displacement_mm[corner]))
                     not_finite(fmt::format("morph target '{}': the displacement of vertex {}", target.name, corner));
     }
+    std::set<std::string> semantics;
+    for (const auto& attribute : mesh.attributes) {
+        const auto per_vertex = static_cast<std::size_t>(attribute.components);
+        if (attribute.components < 1 || per_vertex > vector_types.size())
+            refuse(fmt::format("attribute '{}' has {} components; GLB holds 1 to {}", attribute.name,
+                               attribute.components, vector_types.size()));
+        if (attribute.values.size() != n * per_vertex)
+            refuse(fmt::format("attribute '{}' has {} values for {} vertices of {} components", attribute.name,
+                               attribute.values.size(), n, attribute.components));
+        if (!semantics.insert(semantic(attribute)).second)
+            refuse(fmt::format("two attributes would be called {}; leave one out", semantic(attribute)));
+        for (const auto& t : mesh.triangles)
+            for (const auto corner : t)
+                for (std::size_t c = 0; c < per_vertex; ++c)
+                    if (!std::isfinite(static_cast<float>(attribute.values[corner * per_vertex + c])))
+                        not_finite(fmt::format("attribute '{}' of vertex {}", attribute.name, corner));
+    }
 }
 
 template <class T>
@@ -174,6 +208,20 @@ std::vector<T> gathered(const std::vector<T>& values, std::span<const std::uint3
     if (values.empty()) return out;
     out.reserve(vertices.size());
     for (const auto v : vertices) out.push_back(values[v]);
+    return out;
+}
+
+std::vector<VertexAttribute> gathered(const std::vector<VertexAttribute>& attributes,
+                                      std::span<const std::uint32_t> vertices) {
+    std::vector<VertexAttribute> out;
+    for (const auto& attribute : attributes) {
+        const auto per_vertex = static_cast<std::ptrdiff_t>(attribute.components);
+        auto& values = out.emplace_back(VertexAttribute{attribute.name, attribute.components, {}}).values;
+        for (const auto v : vertices) {
+            const auto first = attribute.values.begin() + v * per_vertex;
+            values.insert(values.end(), first, first + per_vertex);
+        }
+    }
     return out;
 }
 
@@ -192,6 +240,7 @@ GlbMesh compacted(const GlbMesh& mesh) {
     small.normals = gathered(mesh.normals, used);
     small.texture_coordinates = gathered(mesh.texture_coordinates, used);
     small.colours = gathered(mesh.colours, used);
+    small.attributes = gathered(mesh.attributes, used);
     for (const auto& t : mesh.triangles) small.triangles.push_back({new_index[t[0]], new_index[t[1]], new_index[t[2]]});
     for (const auto& target : mesh.morph_targets)
         small.morph_targets.push_back(
@@ -218,6 +267,7 @@ Json mesh_json(const GlbMesh& source, std::optional<std::size_t> material, Buffe
         attributes["TEXCOORD_0"] = buffer.add_texture_coordinates(mesh.texture_coordinates);
     // glTF multiplies colours into the texture, which would darken the picture twice.
     if (!mesh.colours.empty() && source.texture_png.empty()) attributes["COLOR_0"] = buffer.add_colours(mesh.colours);
+    for (const auto& attribute : mesh.attributes) attributes[semantic(attribute)] = buffer.add_attribute(attribute);
     Json primitive = {{"attributes", attributes}, {"indices", buffer.add_indices(mesh.triangles)}, {"mode", 4}};
     if (material) primitive["material"] = *material;
 
@@ -356,6 +406,7 @@ GlbMesh glb_mesh(const Mesh& mesh, std::vector<std::uint32_t>* source_vertex) {
     // Normals of the surface as it was before the seams were cut.
     out.normals = gathered(vertex_normals(mesh.vertices_mm, triangulate(mesh.faces)), sources);
     out.colours = gathered(mesh.colours, sources);
+    out.attributes = gathered(mesh.attributes, sources);
     if (source_vertex) *source_vertex = std::move(sources);
     return out;
 }

@@ -29,6 +29,7 @@ struct GlbMesh {
     std::vector<Triangle> triangles;
     std::vector<std::uint8_t> texture_png;  ///< a PNG file, embedded; empty: plain skin colour
     std::vector<MorphTarget> morph_targets;
+    std::vector<VertexAttribute> attributes;  ///< kept as application's own: "origin" as _ORIGIN; 1 to 4 components
     std::vector<std::pair<std::string, std::string>> extras;  ///< kept in mesh.extras beside targetNames
 };
 
@@ -40,12 +41,14 @@ struct GlbScene {
 /// glTF 2.0, binary: metres, v counted downward, 32-bit floats. Vertices that no triangle uses are left out (so bridged
 /// or outside vertices may hold NaN). Morph targets carry the change of the normals too; mesh.extras.targetNames names
 /// them; if ARKit has any of them, mesh.extras.arkitNames has its names in the same order, "" where there is none.
+/// Attributes are written in their own units under their names in capitals after an underscore, as glTF asks.
 /// @throws InputError naming the mesh and the part that does not fit; NumericalError for what is not finite in 32 bits.
 [[nodiscard]] std::vector<std::uint8_t> encode_glb(const GlbScene& scene);
 void write_glb(const std::filesystem::path& file, const GlbScene& scene);
 
-/// Triangulated mesh with one texture position per vertex: a vertex on a texture seam becomes several. `source_vertex`
-/// (if asked for) says which vertex of `mesh` each comes from, to carry displacements along.
+/// Triangulated mesh with one texture position per vertex: a vertex on a texture seam becomes several. Colours and
+/// attributes go along. `source_vertex` (if asked for) says which vertex of `mesh` each comes from, to carry
+/// displacements along.
 [[nodiscard]] GlbMesh glb_mesh(const Mesh& mesh, std::vector<std::uint32_t>* source_vertex = nullptr);
 
 }  // namespace mimik::geometry

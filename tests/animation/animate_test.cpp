@@ -11,9 +11,11 @@
 #include <nlohmann/json.hpp>
 
 #include "animation/face_export.h"
+#include "geometry/csv.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
 #include "geometry/image.h"
+#include "geometry/mesh_io.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
 #include "tests/support/dense_spline.h"
@@ -428,6 +430,56 @@ struct ReadGlb {
     std::size_t binary = 0;
     nlohmann::json json;
 };
+
+TEST_F(Animate, every_format_says_of_each_vertex_how_it_moved_and_what_was_measured) {
+    const auto model = smile();
+    auto neutral = target_->neutral;
+    auto& grid = neutral.grid;
+    const Point mouth = neutral.landmarks.position_mm("mouth_corner_left");
+    for (std::size_t v = 0; v < grid.size(); ++v)
+        if (grid.measured(v) && (grid.vertices_mm[v] - mouth).norm() < 5)
+            grid.origin[v] = geometry::VertexOrigin::bridged;
+    const TargetFace target(neutral, modeling::Frame::similarity);
+    const WeightedExpression weighted{&model, 0.5};
+    const auto animated = animate(target, std::span(&weighted, 1));
+    const std::vector<NamedMagnitude> names = {{"AU12", 0.5, "mouthSmile"}};
+    const database::TemporaryFolder folder;
+    for (const auto bridged : {geometry::BridgedVertices::keep, geometry::BridgedVertices::leave_out}) {
+        const ExportOptions options{.frame = OutputFrame::average, .bridged = bridged};
+        const auto mesh = to_mesh(animated, target, options);
+        const auto& moved = mesh.attributes.at(0).values;
+        const auto& origin = mesh.attributes.at(1).values;
+        ASSERT_EQ(mesh.attributes[1].name, "origin");
+        ASSERT_EQ(std::count(origin.begin(), origin.end(), 2.0) > 0, bridged == geometry::BridgedVertices::keep);
+
+        const auto obj = folder.path() / "face.obj", table = folder.path() / "face_vertices.csv";
+        EXPECT_EQ(vertex_values_file(obj), table);
+        EXPECT_THAT(write_animated_face(obj, animated, target, names, {}, options),
+                    testing::ElementsAre(HasSubstr(table.string())));
+        const auto text = geometry::read_text(table);
+        geometry::CsvReader rows(text, table.string());
+        EXPECT_EQ(geometry::read_mesh(obj).vertices_mm.size(), mesh.vertices_mm.size());
+        const std::array columns = {rows.column("displacement_mm_x"), rows.column("displacement_mm_y"),
+                                    rows.column("displacement_mm_z")};
+        for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+            ASSERT_TRUE(rows.next()) << v;
+            ASSERT_EQ(rows.number(rows.column("vertex")), static_cast<double>(v + 1));
+            ASSERT_EQ(rows.number(rows.column("origin")), origin[v]);
+            for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(rows.number(columns[c]), moved[3 * v + c]);
+        }
+        EXPECT_FALSE(rows.next());
+
+        EXPECT_TRUE(write_animated_face(folder.path() / "face.glb", animated, target, names, {}, options).empty());
+        const ReadGlb glb(folder.path() / "face.glb");
+        EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
+        const auto& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
+        const auto origins = glb.floats(attributes["_ORIGIN"].get<std::size_t>());
+        const auto displacements = glb.floats(attributes["_DISPLACEMENT_MM"].get<std::size_t>());
+        EXPECT_EQ(origins, std::vector<float>(origin.begin(), origin.end()));
+        EXPECT_EQ(displacements, std::vector<float>(moved.begin(), moved.end()));
+    }
+    for (const char* file : {"face.ply", "face.vtp", "face.glb"}) EXPECT_TRUE(vertex_values_file(file).empty());
+}
 
 double largest_mm(const AnimatedFace& face, const std::vector<Vector>& field) {
     double largest = 0;

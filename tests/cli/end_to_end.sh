@@ -75,6 +75,15 @@ done
 [ ! -e thesis_models ] && [ ! -e nothing.ply ] && [ ! -e nothing ]
 claim "the thesis has no mean, and that is said before any work"
 
+"$mimik" animate work1 --source bs000 --target bs001 --au 12 --keep-bridged -o kept.obj --json >kept.json
+grep -q '"vertex_values": "kept_vertices.csv"' kept.json && grep -q 'are in kept_vertices.csv' kept.json || fail "no word of the table"
+[ "$(head -n 1 kept_vertices.csv)" = vertex,displacement_mm_x,displacement_mm_y,displacement_mm_z,origin ] || fail "columns"
+[ "$(tail -n +2 kept_vertices.csv | wc -l)" -eq "$(grep -c '^v ' kept.obj)" ] || fail "rows"
+grep -q ',1$' kept_vertices.csv && grep -q ',2$' kept_vertices.csv || fail "bridged vertices are not marked"
+"$mimik" animate work1 --source bs000 --target bs001 --au 12 --keep-bridged -o kept.glb --quiet
+grep -qa '"_ORIGIN"' kept.glb && grep -qa '"_DISPLACEMENT_MM"' kept.glb || fail "GLB without values per vertex"
+claim "every format says how each vertex moved and which were bridged, an OBJ in the table beside it"
+
 largest() { sed -n 's/^ *"largest_displacement_mm": \(.*\),/\1/p' "$1" | tail -n 1; }
 for frame in scanner average; do
   "$mimik" animate work1 --source bs000 --target bs001 --au 12 --frame $frame --keep-bridged -o frame.ply --json >$frame.json

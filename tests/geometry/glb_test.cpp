@@ -45,6 +45,11 @@ GlbMesh sheet() {
         target.displacement_mm[0].x() = std::nan("");
         mesh.morph_targets.push_back(std::move(target));
     }
+    mesh.attributes = {{"origin", 1, {}}, {"displacement_mm", 3, {}}};
+    for (std::size_t i = 0; i < mesh.positions_mm.size(); ++i) {
+        mesh.attributes[0].values.push_back(i == 0 ? std::nan("") : 1.0 + static_cast<double>(i % 2));
+        for (int c = 0; c < 3; ++c) mesh.attributes[1].values.push_back(static_cast<double>(i) + 0.25 * c);
+    }
     return mesh;
 }
 
@@ -120,6 +125,22 @@ TEST(Glb, morph_targets_keep_their_names_weights_and_displacements) {
     EXPECT_THAT(std::vector<float>(moved.begin() + 18, moved.begin() + 21), ElementsAre(0.001F, 0.002F, 0.007F));
 }
 
+TEST(Glb, attributes_are_the_files_own_in_capitals_and_their_own_units) {
+    const auto glb = encode_glb(textured_scene());
+    const auto chunks = split(glb);
+    const auto& attributes = chunks.json["meshes"][0]["primitives"][0]["attributes"];
+    const auto origin = attributes["_ORIGIN"].get<std::size_t>();
+    const auto moved = attributes["_DISPLACEMENT_MM"].get<std::size_t>();
+    EXPECT_EQ(chunks.json["accessors"][origin]["type"], "SCALAR");
+    EXPECT_EQ(chunks.json["accessors"][moved]["type"], "VEC3");
+    const auto origins = floats_of(chunks, origin), displacements = floats_of(chunks, moved);
+    ASSERT_EQ(origins.size(), 20U);
+    // Vertex 0 of the sheet is not written.
+    EXPECT_THAT(std::vector<float>(origins.begin(), origins.begin() + 3), ElementsAre(2.0F, 1.0F, 2.0F));
+    EXPECT_THAT(std::vector<float>(displacements.begin(), displacements.begin() + 4),
+                ElementsAre(1.0F, 1.25F, 1.5F, 2.0F));
+}
+
 TEST(Glb, a_vertex_on_a_texture_seam_becomes_several_with_one_normal) {
     Mesh mesh;
     mesh.vertices_mm = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}};
@@ -127,8 +148,10 @@ TEST(Glb, a_vertex_on_a_texture_seam_becomes_several_with_one_normal) {
     mesh.faces.add(std::array<std::uint32_t, 3>{0, 2, 3});
     mesh.texture_coordinates = {{0, 0}, {1, 0}, {1, 1}, {0.5, 0.5}};
     mesh.faces.texture_corners = {0, 1, 2, 0, 3, 1};
+    mesh.attributes = {{"uv", 2, {0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5}}};
     std::vector<std::uint32_t> source;
     const auto glb = glb_mesh(mesh, &source);
+    EXPECT_THAT(glb.attributes.at(0).values, ElementsAre(0, 0.5, 1, 1.5, 2, 2.5, 2, 2.5, 3, 3.5));
     EXPECT_THAT(source, ElementsAre(0, 1, 2, 2, 3));
     EXPECT_THAT(glb.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 3, 4}));
     EXPECT_EQ(glb.normals[2], glb.normals[3]);
@@ -161,6 +184,15 @@ TEST(Glb, errors_name_the_mesh_and_the_part) {
                 HasSubstr("morph target 'AU12_R' has 20 displacements"));
     EXPECT_THAT(not_finite([](GlbMesh& m) { m.morph_targets[0].displacement_mm[4].x() = std::nan(""); }),
                 HasSubstr("'AU12_L': the displacement of vertex 4"));
+    EXPECT_THAT(refused([](GlbMesh& m) { m.attributes[0].values.pop_back(); }),
+                HasSubstr("attribute 'origin' has 20 values for 21 vertices of 1 components"));
+    EXPECT_THAT(refused([](GlbMesh& m) { m.attributes[0].components = 5; }), HasSubstr("'origin' has 5 components"));
+    EXPECT_THAT(refused([](GlbMesh& m) {
+                    m.attributes[1] = {"Origin", 1, m.attributes[0].values};
+                }),
+                HasSubstr("two attributes would be called _ORIGIN"));
+    EXPECT_THAT(not_finite([](GlbMesh& m) { m.attributes[1].values[7] = 1e300; }),
+                HasSubstr("attribute 'displacement_mm' of vertex 2"));
     // A number of 64 bits that is none of 32.
     EXPECT_THAT(not_finite([](GlbMesh& m) { m.positions_mm[3].z() = 1e300; }), HasSubstr("the position of vertex 3"));
     EXPECT_THAT(not_finite([](GlbMesh& m) { m.morph_targets[0].weight = 1e300; }),
@@ -218,6 +250,7 @@ TEST(Glb, what_a_damaged_file_breaks_of_the_specification_is_seen) {
     EXPECT_THAT(faults("\"count\":20", "\"count\":19"), Not(IsEmpty()));
     EXPECT_THAT(faults("\"weights\":[0.25,0.25]", "\"weights\":[0.25,null]"), Contains("a weight is no number"));
     EXPECT_THAT(faults("\"weights\":[0.25,0.25]", "\"weights\":[0.25     ]"), Contains(HasSubstr("weights and morph")));
+    EXPECT_THAT(faults("\"type\":\"SCALAR\"", "\"type\":\"VEC2\"  "), Not(IsEmpty()));
     EXPECT_THAT(faults("\"material\":0", "\"material\":7"), Contains(HasSubstr("materials")));
     EXPECT_THAT(faults("\"byteOffset\":0", "\"byteOffset\":2"), Not(IsEmpty()));
     EXPECT_THAT(faults("image/png", "image/jpg"), Contains("an image is no PNG"));

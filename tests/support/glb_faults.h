@@ -156,6 +156,13 @@ private:
         if (attributes.contains("TEXCOORD_0")) check_attribute(attributes, "TEXCOORD_0", "VEC2", n, false);
         if (attributes.contains("COLOR_0")) check_attribute(attributes, "COLOR_0", "VEC4", n, false);
 
+        for (const auto& [key, accessor] : attributes.items()) {
+            if (!key.starts_with('_')) continue;  // an application's own
+            const auto& a = json_["accessors"].at(accessor.get<std::size_t>());
+            expect(a.at("componentType") == 5126, key + " is not of 32-bit floats");
+            check_attribute(attributes, key.c_str(), a.at("type").get<std::string>().c_str(), n, false);
+        }
+
         const auto indices = primitive.at("indices").get<std::size_t>();
         const auto& a = json_["accessors"].at(indices);
         expect(a.at("type") == "SCALAR" && a.at("componentType") == 5125, "indices are no 32-bit numbers");
