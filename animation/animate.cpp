@@ -172,7 +172,74 @@ FieldExtent field_extent(const geometry::QuadGrid& grid, std::span<const Vector>
     return extent;
 }
 
+double lip_parting_mm(const ExpressionModel& model) {
+    constexpr double lateral_share = 0.6;  // of half the mouth: beyond it both lips go with the corner
+    constexpr double beyond_red_mm = 2.0;  // above the upper and below the lower outer landmark
+    const auto* left = model.landmarks.find("mouth_corner_left");
+    const auto* right = model.landmarks.find("mouth_corner_right");
+    const auto* upper = model.landmarks.find("upper_lip_outer");
+    const auto* lower = model.landmarks.find("lower_lip_outer");
+    const auto* upper_inner = model.landmarks.find("upper_lip_inner");
+    const auto* lower_inner = model.landmarks.find("lower_lip_inner");
+    if (!upper_inner) upper_inner = lower_inner;
+    if (!lower_inner) lower_inner = upper_inner;
+    if (!left || !right || !upper || !lower || !upper_inner) return 0.0;
+    const Point corners = (left->position_mm + right->position_mm) / 2;
+    const double half_mm = (left->position_mm.x() - right->position_mm.x()) / 2;
+    const double middle_y = (upper_inner->position_mm.y() + lower_inner->position_mm.y()) / 2;
+
+    struct Lip {
+        double moved = 0, held = 0;
+        int points = 0, anchors = 0;
+        /// An anchor says something of a lip only where nothing else does.
+        [[nodiscard]] double rise_mm() const { return points > 0 ? moved / points : anchors > 0 ? held / anchors : 0; }
+    } above, below;
+    for (const auto& point : model.points) {
+        const double aside = std::abs(point.position_mm.x() - corners.x()) / half_mm;
+        if (!(aside < lateral_share)) continue;
+        const double seam_y = middle_y + (corners.y() - middle_y) * aside;
+        const double y = point.position_mm.y();
+        if (y > upper->position_mm.y() + beyond_red_mm || y < lower->position_mm.y() - beyond_red_mm) continue;
+        Lip& lip = y > seam_y ? above : below;
+        const bool anchor = point.kind == modeling::ControlKind::anchor;
+        (anchor ? lip.held : lip.moved) += point.displacement_mm.y();
+        ++(anchor ? lip.anchors : lip.points);
+    }
+    return above.rise_mm() - below.rise_mm();
+}
+
+bool lips_closed(const preprocessing::Face& neutral) {
+    const auto* upper = neutral.landmarks.find("upper_lip_inner");
+    const auto* lower = neutral.landmarks.find("lower_lip_inner");
+    if (!upper || !lower) return false;
+    // The grid is regular in x and y, so that any two neighbours in a column tell the height of a cell.
+    const auto& grid = neutral.grid;
+    for (int row = 0; row + 1 < grid.rows; ++row)
+        for (int col = 0; col < grid.cols; ++col) {
+            const auto a = grid.index(row, col), b = grid.index(row + 1, col);
+            if (!grid.inside(a) || !grid.inside(b)) continue;
+            const double cell_mm = std::abs(grid.vertices_mm[b].y() - grid.vertices_mm[a].y());
+            return (upper->position_mm - lower->position_mm).norm() <= 2 * cell_mm;
+        }
+    return false;
+}
+
 namespace {
+
+/// Less is told by expressions that leave the lips together (AU 12, 14, 15, 20: up to 0.5 mm by default), more by those
+/// that part them (AU 25 of the built-in faces: 1.3 to 2.5 mm, AU 26 and 27: 2.9 to 10 mm).
+constexpr double parted_mm = 1.25;
+
+void remark_closed_lips(const TargetFace& target, std::span<const WeightedExpression> expressions,
+                        std::vector<std::string>& remarks) {
+    if (!lips_closed(target.face())) return;
+    for (const auto& [model, magnitude] : expressions)
+        if (magnitude * lip_parting_mm(*model) > parted_mm)
+            remarks.push_back(
+                fmt::format("{} pulls the lips apart, but those of {} are closed: they are one piece of surface, which "
+                            "is stretched and does not open; take a target whose neutral scan has open lips",
+                            model->expression, target.face().id.name()));
+}
 
 [[noreturn]] void refuse_overflow(const std::string& what) {
     throw NumericalError(
@@ -204,6 +271,7 @@ AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpressio
             refuse_overflow(fmt::format("{} at magnitude {}", model->expression, magnitude));
         result.fields_mm.push_back(std::move(field));
     }
+    remark_closed_lips(target, expressions, result.remarks);
     result.displacement_mm.assign(n, Vector::Zero());
     std::vector<Vector> pulls(expressions.size());
     for (std::size_t v = 0; v < n; ++v) {

@@ -90,13 +90,22 @@ struct FieldExtent {
 [[nodiscard]] FieldExtent field_extent(const geometry::QuadGrid& grid, std::span<const geometry::Vector> field_mm,
                                        const Eigen::Matrix3d& frame_from_field = Eigen::Matrix3d::Identity());
 
+/// How far apart an expression pulls the lips at magnitude 1, mm: the mean rise of the model's points on the upper lip
+/// less that of those on the lower; negative where it presses them together, 0 without landmarks of the lips.
+[[nodiscard]] double lip_parting_mm(const modeling::ExpressionModel& model);
+
+/// Whether the inner lips of a neutral face lie within two cells of its grid: no row of vertices lies between them
+/// then, so the lips are one piece of surface, which can be stretched but not opened. False where a landmark is
+/// missing.
+[[nodiscard]] bool lips_closed(const preprocessing::Face& neutral);
+
 struct AnimatedFace {
     geometry::QuadGrid grid;                        ///< scanner frame of the target's neutral scan; origins as there
     std::vector<geometry::Vector> displacement_mm;  ///< per vertex, scanner frame
     Combination combination = Combination::sum;     ///< of fields_mm, into displacement_mm
     std::vector<std::vector<geometry::Vector>> fields_mm;  ///< of each expression alone at magnitude 1, scanner frame
     std::vector<CarriedPoint> points;
-    std::vector<std::string> remarks;  ///< merged points, magnitudes above 1, ...
+    std::vector<std::string> remarks;  ///< merged points, magnitudes above 1, closed lips, ...
     FieldExtent extent;                ///< of displacement_mm, scanner frame
 };
 

@@ -146,6 +146,52 @@ TEST_F(Animate, beyond_magnitude_one_a_remark_says_so) {
     EXPECT_THAT(animate(target, std::span(&strong, 1)).remarks, testing::Contains(HasSubstr("exaggerates")));
 }
 
+/// A face whose inner lips are marked so far apart in y.
+preprocessing::Face with_lips_apart(preprocessing::Face face, double apart_mm) {
+    auto marks = std::vector(face.landmarks.all().begin(), face.landmarks.all().end());
+    const Point upper = face.landmarks.position_mm("upper_lip_inner");
+    for (auto& mark : marks)
+        if (mark.name == "lower_lip_inner") mark.position_mm = upper - Vector(0, apart_mm, 0);
+    face.landmarks = geometry::Landmarks(std::move(marks));
+    return face;
+}
+
+TEST_F(Animate, who_opens_a_closed_mouth_is_told_that_it_stays_one_piece) {
+    // As AU 27 does: all below the seam of the lips goes down, all above it stays.
+    auto opening = smile();
+    opening.expression = "AU27";
+    const double seam_y =
+        (opening.landmarks.position_mm("upper_lip_inner").y() + opening.landmarks.position_mm("lower_lip_inner").y()) /
+        2;
+    for (auto& point : opening.points) point.displacement_mm = {0, point.position_mm.y() < seam_y ? -10.0 : 0.0, 0};
+    auto moved_as_one = opening;
+    for (auto& point : moved_as_one.points) point.displacement_mm.y() = -10;
+    EXPECT_EQ(lip_parting_mm(opening), 10);
+    EXPECT_EQ(lip_parting_mm(moved_as_one), 0);
+    EXPECT_LT(lip_parting_mm(smile()), 0.5);  // both lips go with the corners
+
+    const auto told = [](const ExpressionModel& model, double magnitude, const preprocessing::Face& neutral) {
+        const TargetFace target(neutral, modeling::Frame::similarity);
+        const WeightedExpression weighted{&model, magnitude};
+        std::size_t remarks = 0;
+        for (const auto& remark : animate(target, std::span(&weighted, 1)).remarks)
+            remarks +=
+                remark.starts_with("AU27 pulls the lips apart, but those of " + neutral.id.name() + " are closed");
+        return remarks;
+    };
+    const auto& grid = target_->neutral.grid;
+    const auto middle = grid.index(grid.rows / 2, grid.cols / 2), above = grid.index(grid.rows / 2 + 1, grid.cols / 2);
+    const double cell_mm = grid.vertices_mm[above].y() - grid.vertices_mm[middle].y();
+    const auto closed = with_lips_apart(target_->neutral, 1.9 * cell_mm);
+    const auto open = with_lips_apart(target_->neutral, 2.1 * cell_mm);
+    EXPECT_TRUE(lips_closed(closed));
+    EXPECT_FALSE(lips_closed(open));
+    EXPECT_EQ(told(opening, 1.0, closed), 1U);
+    EXPECT_EQ(told(opening, 0.1, closed), 0U);  // a millimetre
+    EXPECT_EQ(told(opening, 1.0, open), 0U);
+    EXPECT_EQ(told(moved_as_one, 1.0, closed), 0U);
+}
+
 TEST_F(Animate, a_model_of_the_other_normalisation_is_refused) {
     const auto model = smile(modeling::ModelOptions::thesis());
     const TargetFace target(target_->neutral, modeling::Frame::similarity);

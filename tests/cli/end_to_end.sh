@@ -92,6 +92,16 @@ done
 [ "$(largest scanner.json)" != "$(largest average.json)" ]
 claim "lengths in the result are those of the frame that is written"
 
+"$mimik" synthesize lips --subjects 2 --expressions 1,12,27 --seed 5 --quiet  # the inner lips of bs001 are 0.7 mm apart
+"$mimik" preprocess lips -o lips_work --quiet
+for unit in 1 12 27; do
+  "$mimik" animate lips_work --source bs000 --target bs001 --au $unit -o lips.ply --json >lips$unit.json
+done
+grep -q '"AU27 pulls the lips apart, but those of bs001_N_N_0 are closed' lips27.json || fail "no word of closed lips"
+expect_code 0 "note: AU27 pulls the lips apart" "$mimik" animate lips_work --source bs000 --target bs001 --au 27 -o lips.ply
+! grep -q 'lips apart' lips1.json lips12.json || fail "a note on lips that stay together"
+claim "who opens a closed mouth is told that it stays one piece, and nobody else"
+
 "$mimik" regions work1 --quiet >/dev/null
 "$mimik" regions work1 --quiet >/dev/null
 "$mimik" animate work1 --source bs000 --target bs001 --au 12 --hold nose -o drawn/face.ply --quiet
