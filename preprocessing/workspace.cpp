@@ -546,14 +546,14 @@ void check_workspace_place(const database::ScanDatabase& database, const fs::pat
     if (fs::exists(root, ignored) && !fs::is_directory(root, ignored))
         throw InputError(fmt::format("{}: is a file; give a folder for the workspace", root.string()));
     const auto output = place(root), home = place(database.root);
-    std::set<fs::path> folders = {database.root, database.root / "truth"};
+    std::set<fs::path> folders = {database.root};
     for (const auto& entry : database.scans) folders.insert(entry.scan_file.parent_path());
     for (const auto& folder : folders) {
         const auto taken = place(folder);
-        // Beside the subjects' folders there may be a workspace; scans that lie elsewhere have folders of their own.
-        if (output != taken && !(taken != home && inside(taken, home) && inside(output, taken))) continue;
+        // A manifest's scans may lie elsewhere, in a folder that holds other things, too.
+        if (output != taken && !inside(output, home)) continue;
         throw InputError(
-            fmt::format("{}: holds scans of the database {}, into which nothing is written; give another "
+            fmt::format("{}: is part of the database {}, into which nothing is written; give another "
                         "folder for the workspace",
                         root.string(), database.root.string()));
     }

@@ -108,7 +108,7 @@ private:
     AverageFace average_;
 };
 
-/// @throws InputError if `root` is a file, the database's folder, or a subject's or the truth's or inside one: a
+/// @throws InputError if `root` is a file, the database's folder or anywhere in it, or a folder of its scans: a
 /// database is never written into.
 void check_workspace_place(const database::ScanDatabase& database, const std::filesystem::path& root);
 

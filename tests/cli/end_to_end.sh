@@ -225,7 +225,12 @@ claim "wrong input is named, ends with 2 and leaves nothing behind"
 expect_code 2 "'99'" "$mimik" evaluate work1 --expression 99 --dry-run
 expect_code 2 "trim is nan" "$mimik" preprocess db1 -o x --trim nan --dry-run
 expect_code 2 "100000" "$mimik" preprocess db1 -o x --rows 100000 --dry-run
-expect_code 2 "nothing is written" "$mimik" preprocess db1 -o db1 --dry-run
+ls -R db1 >before.txt
+for place in db1 db1/work db1/bs000 db1/truth/work work1/../db1/new; do
+  for dry in "" --dry-run; do expect_code 2 "nothing is written" "$mimik" preprocess db1 -o $place $dry; done
+done
+ls -R db1 | cmp before.txt - || fail "the database was written into"
+claim "no workspace is made in a database"
 for command in "evaluate work1 --expression 12" "preprocess db1 -o x" "synthesize x" "panels work1 --target bs001 --au 12 -o x"; do
   "$mimik" $command --dry-run --json >plan.json
   for key in '"dry_run": true' '"seconds"' '"megabytes"'; do grep -q "$key" plan.json || fail "no $key: $command"; done

@@ -238,16 +238,17 @@ TEST_F(WorkspaceTest, a_cloud_with_front_and_back_is_refused_and_the_rest_is_don
     EXPECT_EQ(report.preprocessed, 5U);
 }
 
-TEST_F(WorkspaceTest, a_database_is_never_written_into_but_a_folder_of_its_own_beside_the_subjects_will_do) {
+TEST_F(WorkspaceTest, a_database_is_never_written_into_but_a_folder_around_or_beside_it_will_do) {
     const auto database = database::open_database(database_);
     const auto before = contents(database_);
     for (const auto& place : {database_, database_ / "", database_ / "x" / "..", database_ / "bs001",
-                              database_ / "bs001" / "work", database_ / "truth" / "work"})
+                              database_ / "bs001" / "work", database_ / "truth" / "work", database_ / "work",
+                              database_ / "not" / "there", folder_.path() / "way" / ".." / "db" / "work"})
         EXPECT_THAT(message_of<InputError>([&] { (void)preprocess_database(database, place, quick()); }),
                     HasSubstr("into which nothing is written"))
             << place;
     EXPECT_EQ(contents(database_), before);
-    check_workspace_place(database, database_ / "work");
+    check_workspace_place(database, folder_.path());
     check_workspace_place(database, folder_.path() / "db2");
 }
 
