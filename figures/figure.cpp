@@ -230,6 +230,7 @@ struct Layout {
     std::vector<int> row_height;                     ///< panel and caption
     std::vector<std::optional<Bar>> bars;            ///< per panel
     std::optional<Bar> shared_bar;                   ///< at the right of all panels
+    int scale_strip = 0;                             ///< below the panels of the first row, so that no face is under it
     int cell_width = 0, bar_strip = 0;               ///< bar_strip: beside each panel, or once at the right
     int width = 0, height = 0;
 
@@ -258,6 +259,7 @@ Layout lay_out(const Figure& figure) {
     page.margin = std::max(4, figure.font_size_px / 2);
     page.line_height = figure.font_size_px * 125 / 100;
     page.title_line_height = title_font_px(figure) * 125 / 100;
+    if (figure.scale_bar_mm > 0) page.scale_strip = bar_font_px(figure) * 125 / 100;
 
     bool one_for_all = true;
     const Bar* first = nullptr;
@@ -280,7 +282,8 @@ Layout lay_out(const Figure& figure) {
             lines = std::max(lines, page.captions[static_cast<std::size_t>(p)].size());
         page.row_height.push_back(
             figure.panel_height_px +
-            (lines == 0 ? 0 : static_cast<int>(lines) * page.line_height + figure.font_size_px / 2));
+            (lines == 0 ? 0 : static_cast<int>(lines) * page.line_height + figure.font_size_px / 2) +
+            (row == 0 ? page.scale_strip : 0));
         page.height += page.row_height.back();
     }
     page.width =
@@ -348,11 +351,11 @@ void draw_legend(Canvas& canvas, const Figure& figure, const Layout& page) {
     }
 }
 
+/// The bar at x and its label beside it, in a strip whose top is at y.
 void draw_scale_bar(Canvas& canvas, const Figure& figure, int x, int y, double mm_per_px) {
     const int font = bar_font_px(figure), length = static_cast<int>(std::lround(figure.scale_bar_mm / mm_per_px));
-    const int foot = y + figure.panel_height_px - font / 2;
-    canvas.fill(x, foot, length, std::max(2, font / 6), ink);
-    canvas.text(x + length / 2.0, foot - font / 3, fmt::format("{:g} mm", figure.scale_bar_mm), font, 0.5, ink);
+    canvas.fill(x, y + font * 6 / 10, length, std::max(2, font / 6), ink);
+    canvas.text(x + length + font / 2.0, y + font, fmt::format("{:g} mm", figure.scale_bar_mm), font, 0, ink);
 }
 
 }  // namespace
@@ -423,8 +426,8 @@ geometry::Image render(const Figure& figure) {
                 draw_bar(canvas, *page.bars[p], x + figure.panel_width_px + figure.font_size_px / 3, y,
                          figure.panel_height_px, bar_font_px(figure));
             if (p == 0 && figure.scale_bar_mm > 0)
-                draw_scale_bar(canvas, figure, x + page.margin, y, cameras[0].mm_per_px);
-            int baseline = y + figure.panel_height_px + figure.font_size_px * 5 / 4;
+                draw_scale_bar(canvas, figure, x + page.margin, y + figure.panel_height_px, cameras[0].mm_per_px);
+            int baseline = y + figure.panel_height_px + (row == 0 ? page.scale_strip : 0) + figure.font_size_px * 5 / 4;
             for (const auto& line : page.captions[p]) {
                 canvas.text(x + figure.panel_width_px / 2.0, baseline, line, figure.font_size_px, 0.5, ink);
                 baseline += page.line_height;

@@ -86,7 +86,7 @@ struct Figure {
     Framing framing = Framing::own;
     /// Millimetres from the lower to the upper edge of a panel; without: what shows every face whole.
     std::optional<double> height_mm{};
-    double scale_bar_mm = 0.0;  ///< length of a bar in the first panel; 0: none
+    double scale_bar_mm = 0.0;  ///< length of a bar below the first panel; 0: none
     bool legend = false;        ///< a line that names the marker and arrow sets
     /// Each pixel is the mean of supersampling^2 drawn ones, on top of the renderer's own multisampling; 1 to 4.
     int supersampling = 1;

@@ -254,10 +254,26 @@ TEST(Render, a_scale_bar_has_its_length) {
     Figure figure = figure_of({.mesh = square(20)});
     figure.scale_bar_mm = 50;
     const Image image = render(figure);
-    const int row = margin_px(figure) + 200 - 8;
-    int dark = 0;
-    for (int x = 0; x < image.width; ++x) dark += pixel(image, x, row)[0] < 60;
-    EXPECT_EQ(dark, 50);
+    int longest = 0;
+    for (int y = margin_px(figure) + 200; y < image.height; ++y) {
+        int dark = 0;
+        for (int x = 2 * margin_px(figure); x < image.width && pixel(image, x, y)[0] < 60; ++x) ++dark;
+        longest = std::max(longest, dark);
+    }
+    EXPECT_EQ(longest, 50);
+}
+
+TEST(Render, a_scale_bar_and_its_label_touch_no_face_however_wide) {
+    SKIP_WITHOUT_RENDERER();
+    Figure figure = figure_of({.mesh = square(190), .caption = "face"});
+    const Image without = render(figure);
+    figure.scale_bar_mm = 50;
+    const Image with = render(figure);
+    const int foot = margin_px(figure) + 200, added = with.height - without.height;
+    ASSERT_GT(added, 8);  // the strip: the letters are 9 pixels high at least
+    for (int y = 0; y < without.height; ++y)
+        for (int x = 0; x < without.width; ++x)
+            ASSERT_EQ(pixel(with, x, y < foot ? y : y + added), pixel(without, x, y)) << x << ", " << y;
 }
 
 TEST(Render, a_legend_adds_a_line_with_the_colours_of_the_sets) {
