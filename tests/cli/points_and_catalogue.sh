@@ -2,6 +2,7 @@
 # points_and_catalogue.sh MIMIK FOLDER: warp, distance and catalogue as a shell meets them, on files small enough to know the
 # answers by heart; the first claim that fails ends it.
 set -euo pipefail
+page=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)/docs/facs_catalogue.md
 source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
 
 # A row of a points CSV is what it must be, within 1e-9: coordinates below 100 round at 1e-14, the solve adds a few digits.
@@ -164,6 +165,10 @@ for other in --json --lint; do
   ! grep -q '\[' out.txt || fail "the text all the same"
 done
 claim "the text of a catalogue is neither JSON nor a check, and what asks for both is refused"
+sed -n '/^```toml$/,/^```$/p' "$page" | grep -v '^```' >printed.toml
+grep -q '^\[\[au\]\]' printed.toml && grep -q '^\[\[emotion\]\]' printed.toml || fail "the example was not found"
+expect_code 0 ": 0 errors" "$mimik" catalogue printed.toml --lint
+claim "the catalogue that the documentation prints has no error"
 line=$(grep -n -m1 'mouth_corner = 1.0' own.toml | cut -d: -f1)
 sed "${line}s/mouth_corner = 1.0/mouth_korner = 1.0/" own.toml >wrong.toml
 expect_code 2 "wrong.toml:$line: error: "$'\nmouth_korner' "$mimik" catalogue wrong.toml --lint
