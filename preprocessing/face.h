@@ -19,7 +19,7 @@ struct Face {
     geometry::QuadGrid grid;                ///< scanner frame
     geometry::Landmarks landmarks;          ///< as marked, our names, scanner frame
     geometry::Landmarks snapped_landmarks;  ///< moved to the nearest grid vertex (thesis 5.4)
-    std::filesystem::path texture_file;     ///< of the scan; empty: none
+    std::filesystem::path texture_file;     ///< of the scan; empty: none, or the grid has no texture coordinates
 
     /// Rigid: brings the scan onto the subject's first neutral (identity for that one itself).
     geometry::Transform neutral_from_scan = geometry::Transform::Identity();

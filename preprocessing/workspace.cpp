@@ -182,9 +182,13 @@ Face preprocess_scan(const database::LoadedScan& loaded, const PreprocessOptions
     Face face;
     face.id = loaded.entry.id;
     face.sex = loaded.entry.sex;
-    face.texture_file = loaded.entry.texture_file;
     face.landmarks = loaded.landmarks;
     face.remarks = loaded.remarks;
+    // A manifest may list meshes that know of no image, and any image of the same name lies beside them.
+    if (!loaded.scan.texture_coordinates.empty())
+        face.texture_file = loaded.entry.texture_file;
+    else if (!loaded.entry.texture_file.empty())
+        face.remarks.emplace_back("the image beside it is not used: the scan has no texture coordinates");
     CleaningReport cleaned;
     GriddingReport gridded;
     face.grid = grid_scan(clean(loaded.scan, options.cleaning, &cleaned), options.gridding, &gridded);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -175,6 +176,37 @@ TEST_F(WorkspaceTest, an_image_that_only_the_scan_file_names_counts_from_the_run
     fs::remove(image);
     EXPECT_EQ(run().preprocessed, 2U);
     EXPECT_EQ(texture_of("bs001_LFAU_12_0"), "");
+}
+
+TEST_F(WorkspaceTest, an_image_beside_a_mesh_without_texture_coordinates_is_no_texture_of_the_face) {
+    std::string manifest = "subject,expression,scan,landmarks\n";
+    for (const auto& entry : database::open_database(database_).scans) {
+        const auto loaded = database::load(entry);
+        const bool with_coordinates = entry.id.subject == "bs002";
+        geometry::Mesh mesh;
+        for (std::size_t i = 0; i < loaded.scan.points_mm.size(); ++i) {
+            if (!loaded.scan.valid(i)) continue;
+            mesh.vertices_mm.push_back(loaded.scan.points_mm[i]);
+            if (with_coordinates) mesh.texture_coordinates.push_back(loaded.scan.texture_coordinates[i]);
+        }
+        const auto stem = entry.id.subject + "/" + entry.id.name();
+        geometry::write_mesh(database_ / (stem + ".ply"), mesh);
+        geometry::write_png(database_ / (stem + ".png"), {2, 2, std::vector<std::uint8_t>(12, 99)});
+        manifest += fmt::format("{},{},{}.ply,{}.lm3\n", entry.id.subject, entry.id.code, stem, stem);
+    }
+    geometry::write_atomically(database_ / "manifest.csv", manifest);
+    const auto report = preprocess();
+    EXPECT_TRUE(report.failures.empty());
+    const Workspace workspace(workspace_);
+    for (const auto& id : workspace.scans()) {
+        const auto face = workspace.face(id);
+        EXPECT_EQ(face.texture_file.empty(), face.grid.texture_coordinates.empty()) << id.name();
+        EXPECT_EQ(face.texture_file.empty(), id.subject != "bs002") << id.name();
+    }
+    const auto remarked = std::count_if(report.remarks.begin(), report.remarks.end(), [](const ScanRemark& r) {
+        return r.scan.substr(0, 5) != "bs002" && r.remark.starts_with("the image beside it is not used");
+    });
+    EXPECT_EQ(remarked, 4);  // one text for all of them: printed as one line
 }
 
 TEST_F(WorkspaceTest, a_scan_with_exchanged_labels_fails_and_one_with_an_odd_chin_is_remarked) {
