@@ -66,10 +66,17 @@ std::string stamp(const fs::path& file) {
     return error ? "absent" : fmt::format("{} {}", size, time.time_since_epoch().count());
 }
 
-/// Everything that a face takes from an entry: its two files, and what a manifest says of them.
+/// What the shape of a face and its landmarks come from: all that the average face and other scans take of it.
+std::string shape_stamp(const ScanEntry& entry) {
+    return fmt::format("{} {} unit {}", stamp(entry.scan_file), stamp(entry.landmarks_file),
+                       static_cast<int>(entry.unit));
+}
+
+/// Everything that a face takes from an entry. Image and image landmarks together decide how the texture lies; files
+/// that only the scan file names stand in `.done`.
 std::string stamp(const ScanEntry& entry) {
-    return fmt::format("{} {} unit {} sex '{}' texture '{}'", stamp(entry.scan_file), stamp(entry.landmarks_file),
-                       static_cast<int>(entry.unit), entry.sex, entry.texture_file.string());
+    return fmt::format("{} sex '{}' texture '{}' {} {}", shape_stamp(entry), entry.sex, entry.texture_file.string(),
+                       stamp(entry.texture_file), stamp(entry.landmarks2d_file));
 }
 
 bool inside(const fs::path& inner, const fs::path& outer) {
@@ -392,7 +399,7 @@ private:
             }
             neutrals.push_back(subject.neutral);
             sets.push_back(subject.neutral_landmarks);
-            made_from.add(" " + subject.neutral->id.name() + " " + stamp(*subject.neutral));
+            made_from.add(" " + subject.neutral->id.name() + " " + shape_stamp(*subject.neutral));
         }
         average_fingerprint_ = made_from.text();
         if (neutrals.size() < 2)

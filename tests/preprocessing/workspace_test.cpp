@@ -178,6 +178,49 @@ TEST_F(WorkspaceTest, an_image_that_only_the_scan_file_names_counts_from_the_run
     EXPECT_EQ(texture_of("bs001_LFAU_12_0"), "");
 }
 
+TEST_F(WorkspaceTest, an_image_or_image_landmarks_that_come_change_or_go_make_that_face_anew_as_in_a_fresh_workspace) {
+    const auto name = [&](const char* extension) {
+        return database_ / "bs001" / (std::string("bs001_N_N_0") + extension);
+    };
+    const auto write_image = [&](int width, int height) {
+        geometry::write_png(
+            name(".png"), {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), 99)});
+    };
+    // Pixels of a photograph that stands on its head: the texture coordinates have to be turned.
+    const auto write_marks = [&] {
+        std::vector<database::ImageLandmark> marks;
+        const auto labelled = database::to_bosphorus_labels(test::AnalyticFace{}.landmarks());
+        for (const auto& mark : labelled.all())
+            marks.push_back({mark.name, mark.position_mm.x() + 75, mark.position_mm.y() + 85});
+        database::write_lm2(name(".lm2"), marks);
+    };
+    const auto expect_anew = [&](const std::string& what) {
+        const auto report = preprocess();
+        EXPECT_EQ(report.preprocessed, 1U) << what;  // neither the average nor another face rests on it
+        EXPECT_EQ(report.up_to_date, 5U) << what;
+        const auto fresh = folder_.path() / "fresh";
+        (void)preprocess_database(database::open_database(database_), fresh, quick());
+        EXPECT_TRUE(contents(workspace_) == contents(fresh)) << what;  // too long to print
+        fs::remove_all(fresh);
+        return Workspace(workspace_).face(*database::parse_scan_name("bs001_N_N_0")).remarks;
+    };
+    using testing::IsEmpty;
+    const auto turned = testing::Contains(HasSubstr("texture coordinates lie u to the right, v down and were turned"));
+    write_image(150, 180);
+    geometry::write_atomically(name(".lm2"), "# damaged\n");
+    (void)preprocess();
+    write_marks();
+    EXPECT_THAT(expect_anew("mended"), turned);
+    fs::remove(name(".lm2"));
+    EXPECT_THAT(expect_anew("gone"), IsEmpty());
+    write_marks();
+    EXPECT_THAT(expect_anew("come"), turned);
+    write_image(1500, 1800);
+    EXPECT_THAT(expect_anew("another image"), ElementsAre(HasSubstr("does not fit the scan")));
+    fs::remove(name(".png"));
+    EXPECT_THAT(expect_anew("no image"), IsEmpty());
+}
+
 TEST_F(WorkspaceTest, an_image_beside_a_mesh_without_texture_coordinates_is_no_texture_of_the_face) {
     std::string manifest = "subject,expression,scan,landmarks\n";
     for (const auto& entry : database::open_database(database_).scans) {
