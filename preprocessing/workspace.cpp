@@ -371,7 +371,6 @@ private:
                     (void)affine_normalisation(face->snapped_landmarks, face->snapped_landmarks);
                     begin_writing();
                     write_finished(stem, *face, neutral_fingerprint(*entry), loaded.files_looked_for);
-                    remark(subject, *face);
                     subject.fresh = true;
                 }
                 subject.neutral_landmarks = face->landmarks;
@@ -472,6 +471,7 @@ private:
         neutral.average_from_scan_affine = affine;
         begin_writing();
         write_finished(stem, neutral, neutral_fingerprint(*subject.neutral), files_looked_for(read_done(stem)));
+        remark(subject, neutral);  // here, not where it was gridded: it may have been in an earlier run
         ++subject.preprocessed;
         return neutral;
     }

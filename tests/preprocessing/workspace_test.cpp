@@ -221,6 +221,25 @@ TEST_F(WorkspaceTest, an_image_or_image_landmarks_that_come_change_or_go_make_th
     EXPECT_THAT(expect_anew("no image"), IsEmpty());
 }
 
+TEST_F(WorkspaceTest, remarks_of_every_face_written_in_a_run_come_once_also_of_neutrals_that_are_only_tied_anew) {
+    for (const char* name : {"bs001_N_N_0", "bs001_LFAU_12_0"})
+        geometry::write_atomically(database_ / "bs001" / (std::string(name) + ".lm2"), "# damaged\n");
+    const auto remarked = [](const PreprocessReport& report) {
+        std::vector<std::string> scans;
+        for (const auto& remark : report.remarks)
+            if (remark.remark.find(".lm2: ") != std::string::npos) scans.push_back(remark.scan);
+        return scans;
+    };
+    const auto both = testing::UnorderedElementsAre("bs001_N_N_0", "bs001_LFAU_12_0");
+    auto options = quick();
+    options.subjects = {"bs000", "bs001"};
+    EXPECT_THAT(remarked(preprocess(options)), both);
+    EXPECT_THAT(remarked(preprocess(options)), testing::IsEmpty());
+    const auto report = preprocess();  // another average: every neutral is tied anew
+    EXPECT_EQ(report.preprocessed, 6U);
+    EXPECT_THAT(remarked(report), both);
+}
+
 TEST_F(WorkspaceTest, an_image_beside_a_mesh_without_texture_coordinates_is_no_texture_of_the_face) {
     std::string manifest = "subject,expression,scan,landmarks\n";
     for (const auto& entry : database::open_database(database_).scans) {
