@@ -57,6 +57,16 @@ void print_remarks(const preprocessing::PreprocessReport& report, const std::vec
     for (const auto& [remark, of] : scans)
         std::cerr << fmt::format("note: {}{}: {}\n", of.front(),
                                  of.size() > 1 ? fmt::format(" and {} more", of.size() - 1) : "", remark);
+    // Closed lips have that, most scans in a database: no reason to look at any of them.
+    if (const auto count = report.merged_landmarks.size(); count > 0)
+        std::cerr << fmt::format("{} scan{} two landmarks on one grid vertex (closed lips): splines take the first\n",
+                                 count, count == 1 ? " has" : "s have");
+}
+
+nlohmann::json listed(const std::vector<preprocessing::ScanRemark>& remarks) {
+    auto list = nlohmann::json::array();
+    for (const auto& [scan, remark] : remarks) list.push_back({{"scan", scan}, {"remark", remark}});
+    return list;
 }
 
 int run(Arguments& arguments) {
@@ -116,9 +126,10 @@ int run(Arguments& arguments) {
             failures.push_back({{"scan", failure.scan}, {"reason", failure.reason}});
         auto remarks = nlohmann::json::array();
         for (const auto& remark : database.remarks) remarks.push_back({{"remark", remark}});
-        for (const auto& [scan, remark] : report.remarks) remarks.push_back({{"scan", scan}, {"remark", remark}});
+        for (auto& remark : listed(report.remarks)) remarks.push_back(std::move(remark));
         nlohmann::json document = {{"schema", 1},
                                    {"remarks", remarks},
+                                   {"merged_landmarks", listed(report.merged_landmarks)},
                                    {"preprocessed", report.preprocessed},
                                    {"up_to_date", report.up_to_date},
                                    {"failures", failures},

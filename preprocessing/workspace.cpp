@@ -20,6 +20,7 @@
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
 #include "geometry/text.h"
+#include "preprocessing/control_pairs.h"
 #include "preprocessing/normalisation.h"
 #include "preprocessing/quality_sheet.h"
 #include "preprocessing/workspace_json.h"
@@ -222,16 +223,7 @@ Face preprocess_scan(const database::LoadedScan& loaded, const PreprocessOptions
         if (face.grid.inside(v)) inside.push_back(face.grid.vertices_mm[v]);
     const geometry::PointIndex index(inside);
     std::vector<geometry::Landmark> snapped(face.landmarks.all().begin(), face.landmarks.all().end());
-    std::map<std::size_t, std::string> taken;
-    for (auto& mark : snapped) {
-        const auto nearest = index.nearest(mark.position_mm);
-        const auto [other, fresh] = taken.emplace(nearest.index, mark.name);
-        // Closed lips: two landmarks can share a nearest vertex, and a spline through both would be singular.
-        if (!fresh)
-            face.remarks.push_back(
-                fmt::format("landmarks '{}' and '{}' have the same nearest grid vertex", other->second, mark.name));
-        mark.position_mm = inside[nearest.index];
-    }
+    for (auto& mark : snapped) mark.position_mm = inside[index.nearest(mark.position_mm).index];
     face.snapped_landmarks = geometry::Landmarks(std::move(snapped));
     return face;
 }
@@ -310,7 +302,7 @@ private:
         bool fresh = false;                   ///< its neutral was gridded in this run
         std::set<const ScanEntry*> reported;  ///< neutrals that failed in the first pass
         std::vector<ScanFailure> failures;    ///< written by the one thread that has this subject
-        std::vector<ScanRemark> remarks;
+        std::vector<ScanRemark> remarks, merged_landmarks;
         std::vector<ScanId> finished;
         std::size_t preprocessed = 0, up_to_date = 0;
     };
@@ -320,6 +312,9 @@ private:
     }
     static void remark(Subject& subject, const Face& face) {
         for (const auto& text : face.remarks) subject.remarks.push_back({face.id.name(), text});
+        const ControlPairs pairs(face.snapped_landmarks, face.snapped_landmarks);
+        if (!pairs.merged().empty())
+            subject.merged_landmarks.push_back({face.id.name(), fmt::format("{}", fmt::join(pairs.merged(), ", "))});
     }
     void done(const ScanEntry& entry) const {
         if (progress_) progress_(entry.id.name());
@@ -510,6 +505,8 @@ private:
             report.up_to_date += subject.up_to_date;
             report.failures.insert(report.failures.end(), subject.failures.begin(), subject.failures.end());
             report.remarks.insert(report.remarks.end(), subject.remarks.begin(), subject.remarks.end());
+            report.merged_landmarks.insert(report.merged_landmarks.end(), subject.merged_landmarks.begin(),
+                                           subject.merged_landmarks.end());
             ids.insert(ids.end(), subject.finished.begin(), subject.finished.end());
             if (!subject.neutral) report.left_out.push_back(subject.scans.front()->id.subject);
         }

@@ -54,11 +54,12 @@ struct ScanRemark {
 };
 
 struct PreprocessReport {
-    std::size_t preprocessed = 0;       ///< written in this run
-    std::size_t up_to_date = 0;         ///< found finished from an earlier run
-    std::vector<ScanFailure> failures;  ///< by subject
-    std::vector<ScanRemark> remarks;    ///< of the faces written in this run
-    std::vector<std::string> left_out;  ///< subjects without a usable neutral
+    std::size_t preprocessed = 0;              ///< written in this run
+    std::size_t up_to_date = 0;                ///< found finished from an earlier run
+    std::vector<ScanFailure> failures;         ///< by subject
+    std::vector<ScanRemark> remarks;           ///< of the faces written in this run
+    std::vector<ScanRemark> merged_landmarks;  ///< of the same faces, one entry a scan: landmarks on one grid vertex
+    std::vector<std::string> left_out;         ///< subjects without a usable neutral
 };
 
 /// What workspace.json says.

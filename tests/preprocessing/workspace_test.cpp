@@ -240,6 +240,25 @@ TEST_F(WorkspaceTest, remarks_of_every_face_written_in_a_run_come_once_also_of_n
     EXPECT_THAT(remarked(report), both);
 }
 
+TEST_F(WorkspaceTest, landmarks_on_one_grid_vertex_are_counted_and_are_no_remark) {
+    // Closed lips: the inner ones in one place.
+    std::vector<geometry::Landmark> closed;
+    const auto marks = geometry::transformed(test::AnalyticFace{1.0, 6}.landmarks(), test::analytic_pose(3));
+    for (const auto& mark : marks.all())
+        closed.push_back(
+            {mark.name, marks.position_mm(mark.name == "lower_lip_inner" ? "upper_lip_inner" : mark.name), ""});
+    database::write_lm3(database_ / "bs001" / "bs001_LFAU_12_0.lm3",
+                        database::to_bosphorus_labels(geometry::Landmarks(closed)));
+    auto options = quick();
+    options.gridding.rows = 100;  // 1.5 mm between rows: the inner lips of the others, 2 mm apart, keep their vertices
+    const auto report = preprocess(options);
+    EXPECT_TRUE(report.remarks.empty());
+    ASSERT_EQ(report.merged_landmarks.size(), 1U);
+    EXPECT_EQ(report.merged_landmarks[0].scan, "bs001_LFAU_12_0");
+    EXPECT_EQ(report.merged_landmarks[0].remark, "'lower_lip_inner' lies on 'upper_lip_inner'");
+    EXPECT_TRUE(preprocess(options).merged_landmarks.empty());  // of the faces written, as remarks are
+}
+
 TEST_F(WorkspaceTest, an_image_beside_a_mesh_without_texture_coordinates_is_no_texture_of_the_face) {
     std::string manifest = "subject,expression,scan,landmarks\n";
     for (const auto& entry : database::open_database(database_).scans) {
