@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluation/reference_band.h"
+#include "geometry/text.h"
 
 namespace mimik::evaluation {
 namespace {
@@ -43,6 +44,18 @@ bool fit_to_be_scored_on(const std::vector<ReferenceBand>& bands) {
     return std::all_of(bands.begin(), bands.end(), [](const ReferenceBand& band) { return band.inside(); });
 }
 
+/// As many digits as it takes to see on which side of its limits it lies: 0.53004 is not inside 0.41 to 0.53.
+std::string explained_text(const ReferenceBand& band) {
+    constexpr int as_in_the_table = 3, all = 17;
+    for (int digits = as_in_the_table; digits < all; ++digits) {
+        auto text = fmt::format("{:.{}f}", band.explained, digits);
+        auto as_shown = band;
+        as_shown.explained = geometry::parse_double(text).value_or(band.explained);
+        if (as_shown.inside() == band.inside()) return text;
+    }
+    return fmt::format("{}", band.explained);
+}
+
 std::string optional_number(double value) { return value < 0 ? "" : fmt::format("{:.6f}", value); }
 
 }  // namespace
@@ -76,8 +89,8 @@ std::string to_markdown(const ExperimentReport& report) {
         std::vector<std::string> words;
         words.reserve(bands.size());
         for (const auto& band : bands)
-            words.push_back(fmt::format("{} {:.3f} (band {:.2f} to {:.2f})",
-                                        band.kind == RowKind::mean ? "mean" : "from one source", band.explained,
+            words.push_back(fmt::format("{} {} (band {:.2f} to {:.2f})",
+                                        band.kind == RowKind::mean ? "mean" : "from one source", explained_text(band),
                                         band.low, band.high));
         text += fmt::format("\nFit to be scored on: {}. True field {}.\n", fit_to_be_scored_on(bands) ? "yes" : "no",
                             fmt::join(words, ", "));

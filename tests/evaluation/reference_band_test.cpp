@@ -59,6 +59,28 @@ TEST(ReferenceBand, that_one_true_field_misses_makes_the_database_unfit) {
     EXPECT_EQ(json::parse(to_json(report)).at("fit"), false);
 }
 
+TEST(ReferenceBand, verdict_and_number_agree_however_near_the_limit_the_number_is) {
+    const struct {
+        double one, mean;
+        const char* words;
+    } cases[] = {
+        {0.53004, 0.6, "no. True field from one source 0.53004 (band 0.41 to 0.53), mean 0.600 "},
+        {0.5304, 0.6, "no. True field from one source 0.5304 (band 0.41 to 0.53), "},
+        {0.52996, 0.6, "yes. True field from one source 0.530 (band 0.41 to 0.53), "},
+        {0.468, 0.5499996,
+         "no. True field from one source 0.468 (band 0.41 to 0.53), mean 0.5499996 (band 0.55 to 0.65)"},
+    };
+    for (const auto& [one, mean, words] : cases) {
+        const auto report = report_of(one, mean, 13);
+        EXPECT_THAT(to_markdown(report), HasSubstr(std::string("Fit to be scored on: ") + words));
+        const auto document = json::parse(to_json(report));
+        EXPECT_EQ(document.at("fit"), words[0] == 'y');
+        for (const auto& band : document.at("reference_bands"))
+            EXPECT_EQ(band.at("inside"),
+                      band.at("low") <= band.at("explained") && band.at("explained") <= band.at("high"));
+    }
+}
+
 TEST(ReferenceBand, is_not_known_for_a_mean_of_few_for_other_expressions_or_without_a_truth) {
     EXPECT_EQ(reference_bands(report_of(0.45, 0.3, 10)).size(), 1U);
     EXPECT_EQ(json::parse(to_json(report_of(0.45, 0.3, 10))).at("fit"), true);  // by the one that is known
