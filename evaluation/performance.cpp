@@ -25,7 +25,7 @@ PerformanceReader::PerformanceReader(const preprocessing::Workspace& workspace) 
 
 std::optional<TruthOrigin> PerformanceReader::truth_origin() const {
     if (!truth_) return std::nullopt;
-    return TruthOrigin{truth_->seed, truth_->face_model};
+    return TruthOrigin{truth_->seed, truth_->face_model, truth_->variances};
 }
 
 void PerformanceReader::check_neutral(const std::string& subject) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -20,10 +21,11 @@ struct Performance {
     std::optional<synthesis::TrueScan> true_expression;  ///< displacement_mm from the neutral scan
 };
 
-/// Which random numbers and faces a database with a truth was made of.
+/// Which random numbers and faces a database with a truth was made of, and how far those spread, as truth.json has it.
 struct TruthOrigin {
     std::uint64_t seed = 0;
     std::string face_model;
+    std::map<std::string, double> variances;
 };
 
 /// Reads performances from a workspace, and their truth from its database if that has one. An experiment reads a face

@@ -187,9 +187,10 @@ std::string to_json(const ExperimentReport& report) {
                {"expressions", report.expressions},
                {"zones", report.zones},
                {"alignment", report.alignment},
-               {"truth", report.truth
-                             ? nlohmann::json{{"seed", report.truth->seed}, {"face_model", report.truth->face_model}}
-                             : nlohmann::json()},
+               {"truth", report.truth ? nlohmann::json{{"seed", report.truth->seed},
+                                                       {"face_model", report.truth->face_model},
+                                                       {"variances", report.truth->variances}}
+                                      : nlohmann::json()},
                {"reference_bands", bands},
                {"fit", known_bands.empty() ? nlohmann::json() : nlohmann::json(fit_to_be_scored_on(known_bands))},
                {"rows", rows},

@@ -52,6 +52,8 @@ Truth decode_truth(std::string_view text, const std::string& name) {
                 throw InputError(geometry::shown(value) + " is no whole number of 0 or more");
             return value.get<std::uint64_t>();
         });
+        if (document.contains("variances"))
+            truth.variances = geometry::read_field<std::map<std::string, double>>(document, "variances");
         const auto& model = document.at("face_model");
         truth.face_model = geometry::read_field<std::string>(model, "name");
         const auto vertices =

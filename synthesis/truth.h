@@ -28,6 +28,7 @@ struct Truth {
     std::filesystem::path root;  ///< of the database (the folder that holds bs000 ... and truth)
     std::uint64_t seed = 0;
     std::string face_model;
+    std::map<std::string, double> variances;  ///< how far people and performances spread, by name of the option
     std::vector<TrueSubject> subjects;
     std::vector<database::ScanId> scans;
     geometry::Faces faces;                                   ///< of every true surface

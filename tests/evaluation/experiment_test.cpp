@@ -90,6 +90,11 @@ TEST_F(Experiment, the_true_field_of_another_size_is_off_by_the_difference_of_si
 
 TEST_F(Experiment, cases_shares_and_header_are_as_defined) {
     EXPECT_EQ(report_->zones, "truth");
+    ASSERT_TRUE(report_->truth);
+    EXPECT_EQ(report_->truth->seed, 3U);
+    EXPECT_EQ(report_->truth->face_model, "analytic");
+    EXPECT_THAT(report_->truth->variances,
+                testing::ElementsAre(testing::Pair("field_length_mm", 12.0), testing::Pair("identity", 0.5)));
     EXPECT_EQ(report_->alignment, "true pose");
     EXPECT_THAT(report_->subjects, ElementsAre("bs000", "bs001", "bs002"));
     EXPECT_TRUE(report_->failures.empty());

@@ -19,7 +19,7 @@ using testing::Not;
 ExperimentReport report_of(double one, double mean, std::size_t sources) {
     ExperimentReport report;
     report.expressions = ExperimentOptions{}.expressions;
-    report.truth = TruthOrigin{7, "some face model"};
+    report.truth = TruthOrigin{7, "some face model", {{"identity", 0.8}}};
     for (const auto& [kind, explained, reference] :
          {std::tuple(RowKind::one_source, 0.3, false), std::tuple(RowKind::one_source, one, true),
           std::tuple(RowKind::mean, mean, true)}) {
@@ -50,7 +50,8 @@ TEST(ReferenceBand, of_a_database_like_the_first_one_is_met_by_both_true_fields)
     EXPECT_EQ(document.at("fit"), true);
     EXPECT_EQ(document.at("reference_bands").at(1),
               (json{{"kind", "mean"}, {"explained", 0.6}, {"low", 0.55}, {"high", 0.65}, {"inside", true}}));
-    EXPECT_EQ(document.at("truth"), (json{{"seed", 7}, {"face_model", "some face model"}}));
+    EXPECT_EQ(document.at("truth"),
+              (json{{"seed", 7}, {"face_model", "some face model"}, {"variances", {{"identity", 0.8}}}}));
 }
 
 TEST(ReferenceBand, that_one_true_field_misses_makes_the_database_unfit) {

@@ -37,7 +37,7 @@ std::vector<std::string> seeds() {
     return {R"({"schema": 1, "seed": 7, "face_model": {"name": "m", "vertices": 5, "faces": [[0, 1, 2], [1, 2, 3, 4]],)"
             R"( "regions": {"lip": [3], "lid": [0, 4]}, "landmark_vertices": {"nose_tip": 2}}, "subjects": [{"name":)"
             R"( "bs000", "sex": "f", "amplitude": 1.1, "asymmetry": 0, "measurements_mm": {"mouth_width": 50.5}}],)"
-            R"( "scans": ["bs000_N_N_0", "bs000_LFAU_12L_0"]})",
+            R"( "scans": ["bs000_N_N_0", "bs000_LFAU_12L_0"], "variances": {"identity": 0.8}})",
             R"(s{"schema": 1, "scan": "bs000_N_N_0", "scanner_from_head": [[1, 0, 0, 5], [0, 0.5, 0.8, 0],)"
             R"( [0, -0.8, 0.5, -1e1], [0, 0, 0, 1]], "landmarks": {"nose_tip": [0, 1, 2], "chin": [0, -60, 0.5]},)"
             R"( "shape_weights": {"smile": 0.7}, "amplitude": 1, "asymmetry": 0.1})"};

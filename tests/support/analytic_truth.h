@@ -49,7 +49,8 @@ inline void write_analytic_truth(const std::filesystem::path& root) {
         scans.push_back(name);
     }
     const nlohmann::json document = {{"schema", 1},
-                                     {"seed", 0},
+                                     {"seed", 3},
+                                     {"variances", {{"identity", 0.5}, {"field_length_mm", 12.0}}},
                                      {"face_model",
                                       {{"name", "analytic"},
                                        {"faces", nlohmann::json::array()},

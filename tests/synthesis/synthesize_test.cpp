@@ -72,6 +72,8 @@ TEST_F(Synthesize, truth_holds_the_pose_and_the_displacement_from_the_resting_fa
     (void)synthesize_database(folder_ / "db", *model, options_);
     const auto truth = open_truth(folder_ / "db");
     EXPECT_EQ(truth.face_model, "dome");
+    EXPECT_EQ(truth.variances.at("identity"), options_.variances.identity);
+    EXPECT_EQ(truth.variances.at("field_length_mm"), options_.variances.field_length_mm);
     EXPECT_EQ(truth.landmark_vertices, model->landmark_vertices());
     EXPECT_EQ(truth.vertex_regions, model->vertex_regions());
     const auto subject = draw_subject(*model, "bs001", options_.seed, options_.variances);
@@ -209,6 +211,8 @@ TEST(Truth, numbers_that_do_not_fit_the_faces_are_refused_with_file_field_and_va
     EXPECT_THAT(error("[3]", "[100]"), HasSubstr("t.json: a vertex in face_model.regions is 100"));
     EXPECT_THAT(error("\"nose_tip\": 2", "\"nose_tip\": -2"),
                 HasSubstr("t.json: a vertex in face_model.landmark_vertices is -2"));
+    EXPECT_THAT(error("\"seed\": 1,", "\"seed\": 1, \"variances\": {\"identity\": \"x\"},"),
+                HasSubstr("t.json: variances: "));
     EXPECT_THAT(error("bs000_N_N_0", "bs000"), HasSubstr("t.json: scans[0]: 'bs000' is no scan name"));
     EXPECT_THAT(database::message_of<InputError>([] { (void)decode_truth("[1]", "t.json"); }), HasSubstr("t.json: "));
 }
