@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "geometry/errors.h"
+#include "geometry/output_folder.h"
 #include "geometry/parallel.h"
 #include "geometry/text.h"
 
@@ -58,6 +59,28 @@ void refuse_doubles(const std::string& option, const std::vector<std::string>& v
     for (const auto& value : values)
         if (!seen.insert(value).second)
             throw InputError(fmt::format("{}: '{}' is asked for twice; give it once", option, value));
+}
+
+CLI::Option* add_output_folder(CLI::App& command, std::string& folder, const std::string& what) {
+    return command.add_option("-o,--output", folder, what)
+        ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty; give a folder" : ""; },
+                               "", "folder"));
+}
+
+void check_output_folder(const std::filesystem::path& folder, bool dry_run) {
+    if (!dry_run) return geometry::check_takes_files(folder);
+    // Only making it tells for sure: rights, full disks, links and names too long all come in.
+    struct Missing {
+        std::vector<std::filesystem::path> folders;  // the innermost first
+        ~Missing() {
+            std::error_code ignored;
+            for (const auto& made : folders) std::filesystem::remove(made, ignored);  // nothing that is not empty
+        }
+    } missing;
+    std::error_code ignored;
+    for (auto place = folder; !place.empty() && !exists(symlink_status(place, ignored)); place = place.parent_path())
+        missing.folders.push_back(place);
+    geometry::check_takes_files(folder);
 }
 
 void add_seed_option(CLI::App& command, std::uint64_t& seed) {

@@ -38,6 +38,13 @@ void refuse_range_scan(const std::filesystem::path& file);
 /// @throws InputError naming the option and the first value that it was given twice.
 void refuse_doubles(const std::string& option, const std::vector<std::string>& values);
 
+/// -o, --output of a command that writes a folder. An empty name, as of a shell's variable that is not set, is refused.
+CLI::Option* add_output_folder(CLI::App& command, std::string& folder, const std::string& what);
+
+/// Finds out before the work, and in a dry run, that a folder takes no files; a dry run leaves no folder that was not
+/// there. @throws InputError as geometry::check_takes_files.
+void check_output_folder(const std::filesystem::path& folder, bool dry_run);
+
 /// --seed: a whole number of 0 or more.
 void add_seed_option(CLI::App& command, std::uint64_t& seed);
 

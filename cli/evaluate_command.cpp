@@ -10,7 +10,6 @@
 #include "evaluation/experiment.h"
 #include "evaluation/score_table.h"
 #include "geometry/file.h"
-#include "geometry/output_folder.h"
 
 namespace mimik::cli {
 namespace {
@@ -35,6 +34,8 @@ int run(Arguments& arguments) {
     options.reference = !arguments.no_reference;
     options.whole_face = !arguments.no_whole_face;
     evaluation::check_experiment(workspace, catalogue, options);
+    const std::filesystem::path folder = arguments.output;
+    if (!folder.empty()) check_output_folder(folder, arguments.dry_run);
     if (arguments.dry_run) {
         const auto estimate = evaluation::estimate_experiment(workspace, options);
         const double seconds = estimate.core_seconds / working_threads();
@@ -51,8 +52,6 @@ int run(Arguments& arguments) {
                                      seconds);
         return exit_done;
     }
-    const std::filesystem::path folder = arguments.output;
-    if (!arguments.output.empty()) geometry::check_takes_files(folder);
     const std::size_t steps = evaluation::experiment_steps(workspace, options);
     evaluation::ExperimentReport report;
     {
@@ -92,7 +91,7 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     command->add_flag("--no-reference", arguments->no_reference,
                       "Leave out the true-field reference of synthetic databases");
     command->add_flag("--no-whole-face", arguments->no_whole_face, "Score the active zone only (faster)");
-    command->add_option("-o,--output", arguments->output, "Folder for scores.md, scores.csv and scores.json");
+    add_output_folder(*command, arguments->output, "Folder for scores.md, scores.csv and scores.json");
     command->add_flag("--dry-run", arguments->dry_run, "Say time and disk, do nothing");
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

@@ -9,7 +9,6 @@
 #include "cli/command.h"
 #include "cli/method_options.h"
 #include "cli/subject_names.h"
-#include "geometry/output_folder.h"
 #include "modeling/source_expression.h"
 
 namespace mimik::cli {
@@ -37,7 +36,7 @@ int run(Arguments& arguments) {
         if (source != "mean") (void)workspace.neutral(source);
     }
     refuse_doubles("--source", arguments.sources);
-    geometry::check_takes_files(folder);
+    check_output_folder(folder, false);
 
     const auto provenance = arguments.method.provenance(catalogue, workspace.average());
     auto written = nlohmann::json::array();
@@ -87,8 +86,7 @@ void add_model_command(CLI::App& app, int& exit_code) {
     command->add_option("--expression,--au", arguments->expressions, "AUs and emotions")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("-o,--output", arguments->output,
-                        "Folder (default: models/<method and switches> in the workspace)");
+    add_output_folder(*command, arguments->output, "Folder (default: models/<method and switches> in the workspace)");
     arguments->method.add_to(*command);
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

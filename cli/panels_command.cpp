@@ -13,7 +13,6 @@
 #include "cli/subject_names.h"
 #include "evaluation/comparison_panels.h"
 #include "geometry/errors.h"
-#include "geometry/output_folder.h"
 
 namespace mimik::cli {
 namespace {
@@ -139,9 +138,8 @@ int run(Arguments& arguments) {
     std::vector<std::string> codes;
     const auto planned = plan(arguments, workspace, catalogue, codes);
     const std::filesystem::path folder = arguments.output;
-
+    check_output_folder(folder, arguments.dry_run);
     if (arguments.dry_run) return say_plan(arguments, planned);
-    geometry::check_takes_files(folder);
 
     auto figures = nlohmann::json::array();
     std::vector<std::string> failures;
@@ -201,7 +199,7 @@ void add_panels_command(CLI::App& app, int& exit_code) {
         ->check(CLI::IsMember({"front", "left", "right", "three-quarter-left", "three-quarter-right"}))
         ->capture_default_str();
     command->add_flag("--keep-bridged", arguments->keep_bridged, "Keep surface over holes");
-    command->add_option("-o,--output", arguments->output, "Folder for the pictures and the files they are drawn from")
+    add_output_folder(*command, arguments->output, "Folder for the pictures and the files they are drawn from")
         ->required();
     command->add_flag("--dry-run", arguments->dry_run, "List the pictures, say time and disk, make nothing");
     arguments->method.add_to(*command);

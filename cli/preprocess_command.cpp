@@ -79,6 +79,10 @@ int run(Arguments& arguments) {
                     [&] { arguments.options.check(); });
     preprocessing::check_workspace_place(database, arguments.output);
     const auto scans = preprocessing::selected_scans(database, arguments.options);
+    const auto catalogue = arguments.catalogue_file.empty() ? modeling::builtin_catalogue()
+                                                            : modeling::read_catalogue(arguments.catalogue_file);
+    arguments.options.stable_region_name = catalogue.content_hash();
+    check_output_folder(arguments.output, arguments.dry_run);
     if (arguments.dry_run) {
         const double vertices = static_cast<double>(arguments.options.gridding.rows) * arguments.options.gridding.cols;
         const auto count = static_cast<double>(scans.size());
@@ -101,9 +105,6 @@ int run(Arguments& arguments) {
     }
     // Which part of a face an expression leaves alone is the catalogue's knowledge; codes it lacks get the general
     // answer.
-    const auto catalogue = arguments.catalogue_file.empty() ? modeling::builtin_catalogue()
-                                                            : modeling::read_catalogue(arguments.catalogue_file);
-    arguments.options.stable_region_name = catalogue.content_hash();
     const auto stable_region = [&](const database::ScanId& scan, const preprocessing::Face& neutral) {
         if (scan.neutral()) return preprocessing::stable_on_every_face(neutral);
         try {
@@ -162,8 +163,7 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
     auto arguments = std::make_shared<Arguments>();
     auto& options = arguments->options;
     command->add_option("DB", arguments->database, "Folder in Bosphorus layout, or with a manifest.csv")->required();
-    command
-        ->add_option("-o,--output", arguments->output, "Workspace folder; a second run goes on where the first ended")
+    add_output_folder(*command, arguments->output, "Workspace folder; a second run goes on where the first ended")
         ->required();
     command->add_option("--subject", options.subjects, "Only these subjects (bs003,bs007)")->delimiter(',');
     command

@@ -1,8 +1,10 @@
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,6 +44,9 @@ int run_synthesize(const SynthesizeArguments& arguments) {
                                                     : synthesis::load_ict_face_model(arguments.face_model);
     const auto estimate = synthesis::estimate_database(*model, options);
     synthesis::check_database_place(arguments.out, estimate.bytes);
+    std::error_code ignored;
+    if (arguments.dry_run && !std::filesystem::is_symlink(arguments.out, ignored))  // a link's goal may be made
+        check_output_folder(arguments.out, arguments.dry_run);
     if (arguments.dry_run) {
         const double seconds = estimate.core_seconds / working_threads();
         const double megabytes = static_cast<double>(estimate.bytes) / 1e6;

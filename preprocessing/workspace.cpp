@@ -547,7 +547,12 @@ private:
 
 void check_workspace_place(const database::ScanDatabase& database, const fs::path& root) {
     const auto place = [](const fs::path& path) {
-        auto canonical = fs::weakly_canonical(fs::absolute(path));
+        std::error_code error;
+        auto canonical = fs::absolute(path, error);
+        if (!error) canonical = fs::weakly_canonical(canonical, error);
+        if (error)
+            throw InputError(fmt::format("'{}': cannot be used ({}); give another folder for the workspace",
+                                         path.string(), error.message()));
         return canonical.has_filename() ? canonical : canonical.parent_path();  // "folder/" is "folder"
     };
     std::error_code ignored;

@@ -109,8 +109,8 @@ private:
     AverageFace average_;
 };
 
-/// @throws InputError if `root` is a file, the database's folder or anywhere in it, or a folder of its scans: a
-/// database is never written into.
+/// @throws InputError if `root` is empty, a file, a link that goes round in circles, the database's folder or anywhere in
+/// it, or a folder of its scans: a database is never written into.
 void check_workspace_place(const database::ScanDatabase& database, const std::filesystem::path& root);
 
 /// Preprocesses a whole database, in parallel over subjects, one scan in memory per thread. What an earlier run

@@ -225,6 +225,7 @@ expect_code 2 $'--seed\n-1' "$mimik" synthesize x --seed -1
 [ ! -e x ]
 claim "wrong input is named, ends with 2 and leaves nothing behind"
 
+echo "no table" >bad.toml
 expect_code 2 "'99'" "$mimik" evaluate work1 --expression 99 --dry-run
 expect_code 2 "trim is nan" "$mimik" preprocess db1 -o x --trim nan --dry-run
 expect_code 2 "100000" "$mimik" preprocess db1 -o x --rows 100000 --dry-run
@@ -242,6 +243,8 @@ done
 "$mimik" preprocess db1 -o x --dry-run --json --threads "$(nproc)" >estimate.json
 "$mimik" preprocess db1 -o x --dry-run --json --threads 1024 | diff estimate.json -
 expect_code 2 "db1: exists already" "$mimik" synthesize db1 --dry-run
+expect_code 2 "bad.toml" "$mimik" preprocess db1 -o x --catalogue bad.toml --dry-run
+[ ! -e x ]
 expect_code 2 "MB free" "$mimik" synthesize x --subjects 1000 --expressions all --spacing 0.2 --texture-density 10 --dry-run
 claim "a dry run says the same of every command, refuses what the run would, and believes in no more threads than there are cores"
 
@@ -252,12 +255,30 @@ for command in "evaluate work1 --expression 12" "model work1 --expression 12" "p
   expect_code 2 "mimik: file: is a file; give a folder" "$mimik" $command -o file
   expect_code 2 "mimik: /proc/mimik: " "$mimik" $command -o /proc/mimik
 done
-expect_code 2 "file: is a file" "$mimik" preprocess db1 -o file
-expect_code 2 "/proc/mimik" "$mimik" preprocess db1 -o /proc/mimik
+ln -s loop loop
+for command in "evaluate work1 --expression 12 -o" "panels work1 --target bs001 --au 12 -o" "preprocess db1 -o" synthesize; do
+  for place in file file/x /proc/mimik loop "$(printf 'x%.0s' {1..300})"; do
+    expect_code 2 "$place" "$mimik" $command "$place"
+    grep '^mimik: ' err.txt >run.txt || { cat err.txt; fail "not our message: $command $place"; }
+    expect_code 2 "$place" "$mimik" $command "$place" --dry-run
+    grep '^mimik: ' err.txt | diff run.txt - || fail "a dry run says otherwise: $command $place"
+  done
+  "$mimik" $command new/folder --dry-run --quiet >/dev/null
+  [ ! -e new ]
+done
+for command in "evaluate work1 --expression 12" "model work1 --expression 12" "panels work1 --target bs001 --au 12" "preprocess db1"; do
+  expect_code 2 "--output: is empty; give a folder" "$mimik" $command -o ""
+done
+mkdir empty
+"$mimik" evaluate work1 --expression 12 -o empty --dry-run --quiet >/dev/null
+[ -z "$(ls empty)" ]
+ln -s later link
+"$mimik" synthesize link --subjects 1 --expressions N --dry-run --quiet >/dev/null
+[ ! -e later ]
 code=0
 "$mimik" evaluate work1 --expression 12 --no-reference --no-whole-face --json >/dev/full 2>err.txt || code=$?
 [ "$code" -eq 2 ] && grep -q "standard output" err.txt
-claim "a folder that takes no scores or faces is found out before the work, and a disk that takes no result ends with 2"
+claim "a folder that takes no scores or faces is found out before the work and in a dry run, which makes none, and a disk that takes no result ends with 2"
 
 head -c 1000 db1/bs002/bs002_LFAU_12_0.bnt >cut.bnt
 cp -r db1 broken

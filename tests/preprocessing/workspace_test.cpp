@@ -361,6 +361,10 @@ TEST_F(WorkspaceTest, a_database_is_never_written_into_but_a_folder_around_or_be
                     HasSubstr("into which nothing is written"))
             << place;
     EXPECT_EQ(contents(database_), before);
+    fs::create_symlink("loop", folder_.path() / "loop");
+    EXPECT_THAT(message_of<InputError>([&] { check_workspace_place(database, folder_.path() / "loop"); }),
+                AllOf(HasSubstr("loop': cannot be used ("), HasSubstr("; give another folder for the workspace")));
+    EXPECT_THAT(message_of<InputError>([&] { check_workspace_place(database, ""); }), HasSubstr("'': cannot be used"));
     check_workspace_place(database, folder_.path());
     check_workspace_place(database, folder_.path() / "db2");
 }
