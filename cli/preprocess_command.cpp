@@ -69,6 +69,39 @@ nlohmann::json listed(const std::vector<preprocessing::ScanRemark>& remarks) {
     return list;
 }
 
+int say_plan(const Arguments& arguments, const database::ScanDatabase& database,
+             const std::vector<const database::ScanEntry*>& scans) {
+    const auto plan = preprocessing::plan_preprocessing(database, arguments.output, arguments.options);
+    // Another face of a subject means another sheet with all of them.
+    const auto on_new_sheet = [&](const database::ScanEntry* entry) {
+        const auto& subject = entry->id.subject;
+        const auto& unfinished = plan.unfinished_subjects;
+        if (database.hidden(subject)) return false;
+        return std::find(unfinished.begin(), unfinished.end(), subject) != unfinished.end() ||
+               !std::filesystem::exists(std::filesystem::path(arguments.output) / "sheets" / (subject + ".done"));
+    };
+    const auto faces = static_cast<double>(plan.remaining);
+    const auto on_sheets =
+        arguments.sheets ? static_cast<double>(std::count_if(scans.begin(), scans.end(), on_new_sheet)) : 0.0;
+    const double vertices = static_cast<double>(arguments.options.gridding.rows) * arguments.options.gridding.cols;
+    const double megabytes = (faces * vertices * bytes_per_vertex + on_sheets * sheet_bytes_per_scan) / 1e6;
+    const double seconds = (faces * seconds_per_scan + on_sheets * sheet_seconds_per_scan) / working_threads();
+    if (arguments.common.json)
+        std::cout << nlohmann::json{{"schema", 1},
+                                    {"dry_run", true},
+                                    {"scans", scans.size()},
+                                    {"up_to_date", plan.up_to_date},
+                                    {"remaining", plan.remaining},
+                                    {"seconds", seconds},
+                                    {"megabytes", megabytes}}
+                         .dump(1)
+                  << '\n';
+    else
+        std::cout << fmt::format("{} scans: {} up to date, {} remain: about {:.0f} s, {:.0f} MB in {}\n", scans.size(),
+                                 plan.up_to_date, plan.remaining, seconds, megabytes, arguments.output);
+    return exit_done;
+}
+
 int run(Arguments& arguments) {
     const auto database = database::open_database(arguments.database);
     check_by_option({{"spike_mm", "--spike-mm"},
@@ -83,26 +116,7 @@ int run(Arguments& arguments) {
                                                             : modeling::read_catalogue(arguments.catalogue_file);
     arguments.options.stable_region_name = catalogue.content_hash();
     check_output_folder(arguments.output, arguments.dry_run);
-    if (arguments.dry_run) {
-        const double vertices = static_cast<double>(arguments.options.gridding.rows) * arguments.options.gridding.cols;
-        const auto count = static_cast<double>(scans.size());
-        const double megabytes =
-            count * (vertices * bytes_per_vertex + (arguments.sheets ? sheet_bytes_per_scan : 0)) / 1e6;
-        const double seconds =
-            count * (seconds_per_scan + (arguments.sheets ? sheet_seconds_per_scan : 0)) / working_threads();
-        if (arguments.common.json)
-            std::cout << nlohmann::json{{"schema", 1},
-                                        {"dry_run", true},
-                                        {"scans", scans.size()},
-                                        {"seconds", seconds},
-                                        {"megabytes", megabytes}}
-                             .dump(1)
-                      << '\n';
-        else
-            std::cout << fmt::format("{} scans: about {:.0f} s, {:.0f} MB in {} at most, if nothing is there yet\n",
-                                     scans.size(), seconds, megabytes, arguments.output);
-        return exit_done;
-    }
+    if (arguments.dry_run) return say_plan(arguments, database, scans);
     // Which part of a face an expression leaves alone is the catalogue's knowledge; codes it lacks get the general
     // answer.
     const auto stable_region = [&](const database::ScanId& scan, const preprocessing::Face& neutral) {
@@ -189,7 +203,7 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
         ->check(CLI::ExistingFile);
     command->add_flag("--sheets", arguments->sheets, "Draw a quality sheet per subject: OUTPUT/sheets/bs003.png");
     command->add_flag("--dry-run", arguments->dry_run,
-                      "Say time and disk at most, if nothing is there yet; do nothing");
+                      "Say what is up to date, what remains, its time and disk; do nothing");
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -21,6 +21,7 @@
 #include "geometry/surface_index.h"
 #include "geometry/text.h"
 #include "preprocessing/control_pairs.h"
+#include "preprocessing/finished_face.h"
 #include "preprocessing/normalisation.h"
 #include "preprocessing/quality_sheet.h"
 #include "preprocessing/workspace_json.h"
@@ -59,91 +60,21 @@ std::string describe(const AverageFaceOptions& o) {
                        o.min_share, o.max_iterations);
 }
 
-/// A file that did not change has the same size and time: cheap to ask for thousands of scans.
-std::string stamp(const fs::path& file) {
-    std::error_code error;
-    const auto size = fs::file_size(file, error);
-    const auto time = fs::last_write_time(file, error);
-    return error ? "absent" : fmt::format("{} {}", size, time.time_since_epoch().count());
-}
-
 /// What the shape of a face and its landmarks come from: all that the average face and other scans take of it.
 std::string shape_stamp(const ScanEntry& entry) {
-    return fmt::format("{} {} unit {}", stamp(entry.scan_file), stamp(entry.landmarks_file),
+    return fmt::format("{} {} unit {}", file_stamp(entry.scan_file), file_stamp(entry.landmarks_file),
                        static_cast<int>(entry.unit));
 }
 
 /// Everything that a face takes from an entry. Image and image landmarks together decide how the texture lies; files
 /// that only the scan file names stand in `.done`.
-std::string stamp(const ScanEntry& entry) {
+std::string entry_stamp(const ScanEntry& entry) {
     return fmt::format("{} sex '{}' texture '{}' {} {}", shape_stamp(entry), entry.sex, entry.texture_file.string(),
-                       stamp(entry.texture_file), stamp(entry.landmarks2d_file));
+                       file_stamp(entry.texture_file), file_stamp(entry.landmarks2d_file));
 }
 
 bool inside(const fs::path& inner, const fs::path& outer) {
     return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
-
-fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
-
-constexpr std::string_view looked_for_mark = "looked for ";
-
-/// What `.done` says of a face: what it was made from, how long its two files are, so that a file that was deleted or
-/// cut short is noticed, and the state of the files that the scan's own file names: an image may come or change later.
-std::string done_text(const fs::path& stem, const std::string& fingerprint, const std::vector<fs::path>& looked_for) {
-    const auto size = [&](const char* suffix) {
-        std::error_code error;
-        const auto bytes = fs::file_size(with_suffix(stem, suffix), error);
-        return error ? std::string("absent") : fmt::format("{}", bytes);
-    };
-    auto text = fmt::format("{}\nfiles {} {}\n", fingerprint, size(".ply"), size(".json"));
-    for (const auto& file : looked_for) text += fmt::format("{}{}\n{}\n", looked_for_mark, file.string(), stamp(file));
-    return text;
-}
-
-/// The files that the `.done` of a face names so. A name with a line break in it is not found again: that face is made
-/// anew each time.
-std::vector<fs::path> files_looked_for(std::string_view done) {
-    std::vector<fs::path> files;
-    while (!done.empty()) {
-        const auto line = done.substr(0, done.find('\n'));
-        if (line.starts_with(looked_for_mark)) files.emplace_back(line.substr(looked_for_mark.size()));
-        done.remove_prefix(std::min(line.size() + 1, done.size()));
-    }
-    return files;
-}
-
-std::string read_done(const fs::path& stem) { return geometry::read_text(with_suffix(stem, ".done"), 1 << 20); }
-
-bool finished(const fs::path& stem, const std::string& fingerprint) {
-    const auto file = with_suffix(stem, ".done");
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) return false;
-    try {
-        const auto done = read_done(stem);
-        return done == done_text(stem, fingerprint, files_looked_for(done));
-    } catch (const InputError&) {
-        return false;  // unreadable: made again
-    }
-}
-
-/// The mark goes first and comes last: a run that ends in between leaves a face that counts as missing.
-void write_finished(const fs::path& stem, const Face& face, const std::string& fingerprint,
-                    const std::vector<fs::path>& looked_for) {
-    std::error_code ignored;
-    fs::remove(with_suffix(stem, ".done"), ignored);
-    write_face(stem, face);
-    geometry::write_atomically(with_suffix(stem, ".done"), done_text(stem, fingerprint, looked_for));
-}
-
-/// The face of an earlier run, if it is whole and was made from the same.
-std::optional<Face> read_finished(const fs::path& stem, const std::string& fingerprint) {
-    if (!finished(stem, fingerprint)) return std::nullopt;
-    try {
-        return read_face(stem);
-    } catch (const InputError&) {
-        return std::nullopt;  // damaged: made again
-    }
 }
 
 /// Nothing can be done with a scan without landmarks, or with some on the other side: found out before it is gridded.
@@ -294,6 +225,30 @@ public:
         return finish();
     }
 
+    /// What run() would do, of scans that it can use; writes nothing.
+    PreprocessPlan plan() {
+        for (auto& subject : subjects_) expect_neutral(subject);
+        name_average();
+        const bool average_there = read_average();
+        geometry::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t s = begin; s < end; ++s)
+                for (const auto* entry : subjects_[s].scans) {
+                    if (!subjects_[s].neutral) break;  // left out
+                    const bool there = entry == subjects_[s].neutral
+                                           ? average_there && tied(*entry)
+                                           : finished(face_stem(root_, entry->id), fingerprint(*entry));
+                    ++(there ? subjects_[s].up_to_date : subjects_[s].preprocessed);
+                }
+        });
+        PreprocessPlan plan;
+        for (const auto& subject : subjects_) {
+            plan.up_to_date += subject.up_to_date;
+            plan.remaining += subject.preprocessed;
+            if (subject.preprocessed > 0) plan.unfinished_subjects.push_back(subject.scans.front()->id.subject);
+        }
+        return plan;
+    }
+
 private:
     struct Subject {
         std::vector<const ScanEntry*> scans;
@@ -349,7 +304,24 @@ private:
                                          file.string(), error.message()));
     }
     [[nodiscard]] std::string neutral_fingerprint(const ScanEntry& entry) const {
-        return describe(options_) + " neutral " + stamp(entry);
+        return describe(options_) + " neutral " + entry_stamp(entry);
+    }
+
+    /// Of scans other than the first neutrals.
+    [[nodiscard]] std::string fingerprint(const ScanEntry& entry) const {
+        return fmt::format("{} scan {} average {} stable region {}", describe(options_), entry_stamp(entry),
+                           average_fingerprint_, options_.stable_region_name);
+    }
+
+    /// Without reading a scan: the neutral that an earlier run could use, else the first.
+    void expect_neutral(Subject& subject) const {
+        for (const auto* entry : subject.scans) {
+            if (!entry->id.neutral()) continue;
+            if (!subject.neutral) subject.neutral = entry;
+            if (!finished(face_stem(root_, entry->id), neutral_fingerprint(*entry))) continue;
+            subject.neutral = entry;
+            return;
+        }
     }
 
     /// First pass: one neutral per subject, gridded and written. One that fails gives its place to the next.
@@ -379,8 +351,8 @@ private:
         }
     }
 
-    void prepare_average() {
-        std::vector<geometry::Landmarks> sets;
+    /// What the average face is made from. @return the neutrals
+    std::vector<const ScanEntry*> name_average() {
         std::vector<const ScanEntry*> neutrals;
         geometry::ContentHash made_from;  // its length must not grow with the subjects: every mark repeats it
         made_from.add(describe(options_) + " " + describe(options_.average));
@@ -392,7 +364,6 @@ private:
                 continue;
             }
             neutrals.push_back(subject.neutral);
-            sets.push_back(subject.neutral_landmarks);
             made_from.add(" " + subject.neutral->id.name() + " " + shape_stamp(*subject.neutral));
         }
         average_fingerprint_ = made_from.text();
@@ -402,17 +373,28 @@ private:
                 database_.root.string(), neutrals.size(), subjects_.size(),
                 neutrals.size() == subjects_.size() ? std::string("; select more subjects")
                                                     : fmt::format(" (the first that has none: {})", first_reason)));
+        return neutrals;
+    }
 
+    /// Whether an earlier run made it from the same.
+    bool read_average() {
         std::error_code error;
-        if (fs::exists(with_suffix(average_stem(root_), ".json"), error)) {
-            try {
-                std::string found;
-                average_ = read_average_face(average_stem(root_), &found);
-                if (found == average_fingerprint_) return;
-            } catch (const InputError&) {
-                // Damaged: made again below.
-            }
+        if (!fs::exists(average_stem(root_) += ".json", error)) return false;
+        try {
+            std::string found;
+            average_ = read_average_face(average_stem(root_), &found);
+            return found == average_fingerprint_;
+        } catch (const InputError&) {
+            return false;  // damaged: made again
         }
+    }
+
+    void prepare_average() {
+        const auto neutrals = name_average();
+        if (read_average()) return;
+        std::vector<geometry::Landmarks> sets;
+        for (const auto& subject : subjects_)
+            if (subject.neutral) sets.push_back(subject.neutral_landmarks);
         begin_writing();
         double rms_mm = 0;
         const auto consensus = consensus_landmarks(sets, options_.average.max_iterations, &rms_mm);
@@ -452,20 +434,35 @@ private:
         }
     }
 
+    /// @return whether it was not tied to this average before
+    bool tie(Face& neutral) const {
+        const auto similarity = similarity_normalisation(neutral.landmarks, average_.landmarks);
+        const auto affine = affine_normalisation(neutral.snapped_landmarks, average_.landmarks);
+        const bool changed = neutral.average_from_scan.matrix() != similarity.matrix() ||
+                             neutral.average_from_scan_affine.matrix() != affine.matrix();
+        neutral.average_from_scan = similarity;
+        neutral.average_from_scan_affine = affine;
+        return changed;
+    }
+    /// Whether the face of a first neutral is there as tie_neutral() would leave it.
+    [[nodiscard]] bool tied(const ScanEntry& entry) const {
+        auto face = read_finished(face_stem(root_, entry.id), neutral_fingerprint(entry));
+        try {
+            return face && !tie(*face);
+        } catch (const std::exception&) {
+            return false;  // the run will say why
+        }
+    }
+
     Face tie_neutral(Subject& subject) {
         const auto stem = face_stem(root_, subject.neutral->id);
         Face neutral = read_face(stem);
-        const auto similarity = similarity_normalisation(neutral.landmarks, average_.landmarks);
-        const auto affine = affine_normalisation(neutral.snapped_landmarks, average_.landmarks);
-        if (!subject.fresh && neutral.average_from_scan.matrix() == similarity.matrix() &&
-            neutral.average_from_scan_affine.matrix() == affine.matrix()) {
+        if (!tie(neutral) && !subject.fresh) {
             ++subject.up_to_date;
             return neutral;
         }
-        neutral.average_from_scan = similarity;
-        neutral.average_from_scan_affine = affine;
         begin_writing();
-        write_finished(stem, neutral, neutral_fingerprint(*subject.neutral), files_looked_for(read_done(stem)));
+        write_finished(stem, neutral, neutral_fingerprint(*subject.neutral), files_looked_for(stem));
         remark(subject, neutral);  // here, not where it was gridded: it may have been in an earlier run
         ++subject.preprocessed;
         return neutral;
@@ -473,9 +470,7 @@ private:
 
     void tie_scan(Subject& subject, const Face& neutral, const ScanEntry& entry) {
         const auto stem = face_stem(root_, entry.id);
-        const auto fingerprint = fmt::format("{} scan {} average {} stable region {}", describe(options_), stamp(entry),
-                                             average_fingerprint_, options_.stable_region_name);
-        if (finished(stem, fingerprint)) {
+        if (finished(stem, fingerprint(entry))) {
             ++subject.up_to_date;
             return;
         }
@@ -492,7 +487,7 @@ private:
             face.remarks.push_back(fmt::format("Eqs 5.1-5.4: {}; those of the neutral were taken", e.what()));
         }
         begin_writing();
-        write_finished(stem, face, fingerprint, loaded.files_looked_for);
+        write_finished(stem, face, fingerprint(entry), loaded.files_looked_for);
         remark(subject, face);
         ++subject.preprocessed;
     }
@@ -580,6 +575,13 @@ PreprocessReport preprocess_database(const database::ScanDatabase& database, con
     DatabaseRun run(database, root, options, stable_region, progress);
     geometry::check_takes_files(root);
     return run.run();
+}
+
+PreprocessPlan plan_preprocessing(const database::ScanDatabase& database, const fs::path& root,
+                                  const PreprocessOptions& options) {
+    options.check();
+    check_workspace_place(database, root);
+    return DatabaseRun(database, root, options, {}, {}).plan();
 }
 
 void align_to_neutral(Face& face, const Face& neutral, const std::vector<char>& stable,

@@ -124,6 +124,19 @@ PreprocessReport preprocess_database(const database::ScanDatabase& database, con
                                      const PreprocessOptions& options = {}, const StableRegion& stable_region = {},
                                      const std::function<void(const std::string& scan)>& progress = {});
 
+/// How far an earlier run got.
+struct PreprocessPlan {
+    std::size_t up_to_date = 0;
+    std::size_t remaining = 0;
+    std::vector<std::string> unfinished_subjects;  ///< of whom a scan remains
+};
+/// What preprocess_database would do with the same arguments, found out without reading a scan; nothing is written. A
+/// scan that failed remains; the other scans of a neutral that failed count as if it could be used.
+/// @throws InputError as preprocess_database, but for what only the scans or writing can tell.
+[[nodiscard]] PreprocessPlan plan_preprocessing(const database::ScanDatabase& database,
+                                                const std::filesystem::path& root,
+                                                const PreprocessOptions& options = {});
+
 /// The scans that `options` select, neutrals first within each subject. @throws InputError naming the subjects or
 /// expressions that the database does not have.
 [[nodiscard]] std::vector<const database::ScanEntry*> selected_scans(const database::ScanDatabase& database,

@@ -239,7 +239,8 @@ for command in "evaluate work1 --expression 12" "preprocess db1 -o x" "synthesiz
   "$mimik" $command --dry-run --json >plan.json
   for key in '"dry_run": true' '"seconds"' '"megabytes"'; do grep -q "$key" plan.json || fail "no $key: $command"; done
 done
-"$mimik" preprocess db1 -o work1 --dry-run | grep -q "at most, if nothing is there yet" || fail "what is there is not done again"
+"$mimik" preprocess db1 -o work1 --dry-run | grep -qx '15 scans: 15 up to date, 0 remain: about 0 s, 0 MB in work1' || fail "what is there is not done again"
+"$mimik" preprocess db1 -o x --dry-run | grep -q '^15 scans: 0 up to date, 15 remain: about [0-9]* s, [0-9]* MB in x$' || fail "nothing is there yet"
 "$mimik" preprocess db1 -o x --dry-run --json --threads "$(nproc)" >estimate.json
 "$mimik" preprocess db1 -o x --dry-run --json --threads 1024 | diff estimate.json -
 expect_code 2 "db1: exists already" "$mimik" synthesize db1 --dry-run

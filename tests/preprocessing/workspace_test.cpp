@@ -259,6 +259,36 @@ TEST_F(WorkspaceTest, landmarks_on_one_grid_vertex_are_counted_and_are_no_remark
     EXPECT_TRUE(preprocess(options).merged_landmarks.empty());  // of the faces written, as remarks are
 }
 
+TEST_F(WorkspaceTest, the_plan_is_what_the_run_then_does_and_writes_nothing) {
+    const auto expect_plan = [&](const PreprocessOptions& options, std::size_t up_to_date, std::size_t remaining) {
+        const auto before = fs::exists(workspace_) ? contents(workspace_) : std::map<std::string, std::string>();
+        const auto plan = plan_preprocessing(database::open_database(database_), workspace_, options);
+        EXPECT_EQ(plan.up_to_date, up_to_date);
+        EXPECT_EQ(plan.remaining, remaining);
+        EXPECT_TRUE(before.empty() ? !fs::exists(workspace_) : contents(workspace_) == before);
+        const auto report = preprocess(options);
+        EXPECT_EQ(report.up_to_date, up_to_date);
+        EXPECT_EQ(report.preprocessed + report.failures.size(), remaining);
+        return plan.unfinished_subjects;
+    };
+    auto options = quick(), fewer = quick();
+    fewer.subjects = {"bs000", "bs001"};
+    expect_plan(fewer, 0, 4);
+    expect_plan(fewer, 4, 0);
+    expect_plan(options, 0, 6);  // another average: neutrals are tied, the others aligned anew
+    options.stable_region_name = "another catalogue";
+    expect_plan(options, 3, 3);
+    fs::remove(face_file("bs000_LFAU_12_0.ply"));
+    fs::remove(face_file("bs001_N_N_0.json"));
+    EXPECT_THAT(expect_plan(options, 4, 2), ElementsAre("bs000", "bs001"));
+    test::write_analytic_scan(database_, "bs000_N_N_1", {0.95, 0}, test::analytic_pose(4));
+    fs::resize_file(database_ / "bs000" / "bs000_N_N_0.bnt", 1000);
+    (void)preprocess(options);
+    expect_plan(options, 6, 1);  // its place was taken; it is tried again
+    fewer.subjects = {"bs001"};
+    EXPECT_THROW((void)plan_preprocessing(database::open_database(database_), workspace_, fewer), InputError);
+}
+
 TEST_F(WorkspaceTest, an_image_beside_a_mesh_without_texture_coordinates_is_no_texture_of_the_face) {
     std::string manifest = "subject,expression,scan,landmarks\n";
     for (const auto& entry : database::open_database(database_).scans) {
