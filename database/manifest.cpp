@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -43,6 +45,27 @@ std::string subject_name(const geometry::CsvReader& rows, const std::string& val
     return name;
 }
 
+/// Remarks spellings that one code stands for because it has '-' for what they differ in.
+class Spellings {
+public:
+    void add(const ScanId& expression, const std::string& text, const std::string& file,
+             std::vector<std::string>& remarks) {
+        if (expression.code.find('-') == std::string::npos) return;
+        std::string letters = geometry::lower_case(text);  // however the words are separated
+        std::erase_if(letters, [](char c) { return c == ' ' || c == '\t' || c == '_' || c == '-'; });
+        const auto [first, is_new] = first_.try_emplace(expression.expression(), text);
+        if (!seen_.emplace(expression.expression(), std::move(letters)).second || is_new) return;
+        remarks.push_back(
+            fmt::format("{}: expressions {} and {} are both called {} and count as one; use other letters or digits if "
+                        "they are two",
+                        file, geometry::in_quotes(first->second), geometry::in_quotes(text), expression.expression()));
+    }
+
+private:
+    std::map<std::string, std::string> first_;
+    std::set<std::pair<std::string, std::string>> seen_;
+};
+
 /// Also the words.
 std::string parse_sex(const geometry::CsvReader& rows, const std::string& value) {
     std::string word = geometry::lower_case(value);
@@ -62,6 +85,7 @@ Manifest parse_manifest(std::string_view text, const fs::path& file) {
     const fs::path folder = file.parent_path();
     Manifest manifest;
     std::map<ScanId, int> repetitions;
+    Spellings spellings;
     while (rows.next()) {
         if (manifest.scans.size() == max_scans)
             rows.fail(fmt::format("more than {} scans; split the database", max_scans));
@@ -77,6 +101,7 @@ Manifest parse_manifest(std::string_view text, const fs::path& file) {
             manifest.remarks.push_back(fmt::format("{}: expression {} is none that Mimik knows; it is kept as {}",
                                                    file.string(), geometry::in_quotes(rows.field(expression)),
                                                    entry.id.expression()));
+        spellings.add(*id, rows.field(expression), file.string(), manifest.remarks);
         if (rows.field(scan).empty()) rows.fail("scan is empty; name the file");
         entry.scan_file = inside(rows, rows.field(scan), folder, "scan");
         entry.file_name_stem = entry.scan_file.stem().string();

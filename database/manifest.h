@@ -17,8 +17,9 @@ namespace mimik::database {
 /// Scans of one subject and expression are numbered in the order of the file. Blanks and '_' in subject names become
 /// '-'.
 struct Manifest {
-    std::vector<ScanEntry> scans;      ///< in the order of the file, paths absolute
-    std::vector<std::string> remarks;  ///< renamed subjects, expressions that are none of the known ones
+    std::vector<ScanEntry> scans;  ///< in the order of the file, paths absolute
+    std::vector<std::string>
+        remarks;  ///< renamed subjects, expressions that are none of the known ones or fall together
 };
 /// @throws InputError naming line, column, value and mend.
 [[nodiscard]] Manifest parse_manifest(std::string_view text, const std::filesystem::path& file);

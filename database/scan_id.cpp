@@ -42,6 +42,11 @@ struct ActionUnitCode {
     int number = 0;
     Side side = Side::both;
     bool low = false;
+
+    /// Each code in one spelling: 12 for 012.
+    [[nodiscard]] std::string text() const {
+        return fmt::format("{}{}", number, low ? "LW" : side == Side::left ? "L" : side == Side::right ? "R" : "");
+    }
 };
 
 /// 12, 12L, 12R, 12LW.
@@ -154,12 +159,35 @@ ScanId scan_id_from(std::string_view stem) {
 
 namespace {
 
-/// A code becomes part of file names.
+/// A code becomes part of file names and of JSON.
 std::string plain_code(std::string_view code) {
+    const bool utf8 = geometry::is_utf8(code);
     std::string plain(code);
-    for (char& c : plain)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '+') c = '-';
+    for (char& c : plain) {
+        const bool beyond_ascii = static_cast<unsigned char>(c) >= 0x80;
+        if (!(beyond_ascii ? utf8 : std::isalnum(static_cast<unsigned char>(c)) || c == '+')) c = '-';
+    }
     return plain;
+}
+
+/// "A22A025" -> "A22A25"; empty if a part is no action unit.
+std::optional<std::string> combination_code(std::string_view text) {
+    if (!text.starts_with('A')) return std::nullopt;
+    std::string code;
+    for (const auto part : split(text.substr(1), 'A')) {
+        const auto unit = parse_action_unit_code(part);
+        if (!unit) return std::nullopt;
+        code.append("A").append(unit->text());
+    }
+    return code;
+}
+
+/// What stands behind the group in "LFAU_012".
+std::string code_in_group(std::string_view group, std::string_view text) {
+    if (const auto unit = parse_action_unit_code(text); unit && may_hold_action_units(group)) return unit->text();
+    if (group == "CAU")
+        if (const auto combination = combination_code(text)) return *combination;
+    return plain_code(text);
 }
 
 }  // namespace
@@ -174,7 +202,7 @@ std::optional<ScanId> parse_expression(std::string_view text) {
 
     if (const auto cut = word.find('_');
         cut != std::string::npos && known_group(word.substr(0, cut)) && word.find('_', cut + 1) == std::string::npos)
-        return ScanId{"", word.substr(0, cut), plain_code(word.substr(cut + 1)), 0};
+        return ScanId{"", word.substr(0, cut), code_in_group(word.substr(0, cut), word.substr(cut + 1)), 0};
 
     for (const std::string_view emotion : {"ANGER", "DISGUST", "FEAR", "HAPPY", "SADNESS", "SURPRISE"})
         if (word == emotion) return ScanId{"", "E", word, 0};
@@ -190,16 +218,15 @@ std::optional<ScanId> parse_expression(std::string_view text) {
     };
     const auto parts = split(compact, '+');
     if (parts.size() == 1) {
-        if (const auto code = without_prefix(compact); parse_action_unit_code(code))
-            return ScanId{"", group_of_action_unit(leading_number(code)), std::string(code), 0};
+        if (const auto unit = parse_action_unit_code(without_prefix(compact)))
+            return ScanId{"", group_of_action_unit(unit->number), unit->text(), 0};
         // Bosphorus combinations: A22A25.
         if (compact.size() > 2 && compact[0] == 'A' && digit(compact[1]) && compact.find('A', 1) != std::string::npos)
-            return ScanId{"", "CAU", plain_code(compact), 0};
-    } else if (std::all_of(parts.begin(), parts.end(),
-                           [&](auto p) { return parse_action_unit_code(without_prefix(p)).has_value(); })) {
-        std::string code;
-        for (const auto part : parts) code.append("A").append(without_prefix(part));
-        return ScanId{"", "CAU", code, 0};
+            return ScanId{"", "CAU", code_in_group("CAU", compact), 0};
+    } else {
+        std::string joined;
+        for (const auto part : parts) joined.append("A").append(without_prefix(part));
+        if (auto code = combination_code(joined)) return ScanId{"", "CAU", std::move(*code), 0};
     }
 
     std::string kept = plain_code(word);

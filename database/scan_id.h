@@ -42,8 +42,9 @@ struct ScanId {
 [[nodiscard]] ScanId scan_id_from(std::string_view stem);
 
 /// Group and code (subject and repetition left empty) from what people write for an expression: "N", "neutral",
-/// "LFAU_12", "AU12", "au12_L", "12L", "12LW", "AU22+AU25", "A22A25", "HAPPY". What is none of these is kept, in upper
-/// case, in group "OTHER". Empty if nothing is left of it.
+/// "LFAU_12", "AU12", "AU012", "au12_L", "12L", "12LW", "AU22+AU25", "A22A25", "HAPPY". What is none of these is kept
+/// in group "OTHER": ASCII letters in upper case, characters that names of scans cannot have, and bytes that are no
+/// UTF-8, as '-'. Empty if nothing is left of it.
 [[nodiscard]] std::optional<ScanId> parse_expression(std::string_view text);
 
 /// "UFAU" for upper-face AUs (1, 2, 4, 5, 6, 7, 41 to 46), "LFAU" for the rest.

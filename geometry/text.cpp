@@ -98,6 +98,29 @@ std::optional<std::int64_t> parse_integer(std::string_view word) {
     return value;
 }
 
+bool is_utf8(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const auto byte = [&](std::size_t k) {
+            return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0U;
+        };
+        const unsigned lead = byte(0);
+        const std::size_t size = lead < 0x80   ? 1
+                                 : lead < 0xC2 ? 0
+                                 : lead < 0xE0 ? 2
+                                 : lead < 0xF0 ? 3
+                                 : lead < 0xF5 ? 4
+                                               : 0;
+        if (size == 0) return false;
+        for (std::size_t k = 1; k < size; ++k)
+            if ((byte(k) & 0xC0U) != 0x80U) return false;
+        if ((lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) >= 0xA0) || (lead == 0xF0 && byte(1) < 0x90) ||
+            (lead == 0xF4 && byte(1) >= 0x90))
+            return false;
+        at += size;
+    }
+    return true;
+}
+
 std::string in_quotes(std::string_view word) {
     constexpr std::size_t longest = 40;
     std::string shown(word.substr(0, longest));

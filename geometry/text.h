@@ -41,6 +41,9 @@ private:
 [[nodiscard]] std::optional<double> parse_double(std::string_view word);
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);
 
+/// Well-formed UTF-8 (Unicode, table 3-7): no overlong form, no half of a surrogate pair, nothing beyond U+10FFFF.
+[[nodiscard]] bool is_utf8(std::string_view text);
+
 /// The word in single quotes for an error message: at most 40 characters, control characters as '?'.
 [[nodiscard]] std::string in_quotes(std::string_view word);
 

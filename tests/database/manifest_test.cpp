@@ -51,6 +51,30 @@ TEST(Manifest, names_that_would_break_file_names_are_changed_or_refused) {
     EXPECT_THAT(manifest_error("subject,expression,scan\n../x,N,1.ply\n"), HasSubstr("subject '../x'"));
 }
 
+TEST(Manifest, expressions_in_other_letters_are_different_expressions) {
+    const auto manifest = parse_manifest(
+        "subject,expression,scan\na,E_\u00e9,1.ply\na,E_\u00fc,2.ply\na,\u5fae\u7b11,3.ply\na,\u6124\u6012,4.ply\n",
+        "m.csv");
+    std::vector<std::string> names;
+    for (const auto& scan : manifest.scans) names.push_back(scan.id.name());
+    EXPECT_THAT(names, ElementsAre("a_E_\u00e9_0", "a_E_\u00fc_0", "a_OTHER_\u5fae\u7b11_0", "a_OTHER_\u6124\u6012_0"));
+}
+
+TEST(Manifest, two_spellings_that_fall_together_are_remarked_and_two_ways_to_separate_words_are_not) {
+    const auto together = [](const std::string& rows) {
+        std::vector<std::string> found;
+        for (const auto& remark : parse_manifest("subject,expression,scan\n" + rows, "m.csv").remarks)
+            if (remark.find("both called") != std::string::npos) found.push_back(remark);
+        return found;
+    };
+    EXPECT_THAT(together("a,E_lips?,1.ply\nb,E_lips!,2.ply\nb,E_lips!,3.ply\n"),
+                ElementsAre("m.csv: expressions 'E_lips?' and 'E_lips!' are both called E_LIPS- and count as one; use "
+                            "other letters or digits if they are two"));
+    EXPECT_THAT(together("a,E_\xE9,1.ply\na,E_\xFC,2.ply\n"), ElementsAre(HasSubstr("are both called E_-")));
+    EXPECT_THAT(together("a,bite lip,1.ply\na,bite-lip,2.ply\na,BITE_LIP,3.ply\na,AU12,4.ply\na,12,5.ply\n"),
+                IsEmpty());
+}
+
 TEST(Manifest, paths_that_leave_the_folder_are_refused_with_line_and_value) {
     EXPECT_THAT(manifest_error("subject,expression,scan\nA,N,../secret.ply\n"),
                 HasSubstr("line 2: scan '../secret.ply' leads out"));

@@ -90,6 +90,15 @@ TEST(Expression, the_usual_spellings_find_their_group_and_code) {
                                                                         {"bite lip", "OTHER_BITE-LIP"},
                                                                         {"E lips\x1d/x", "E_LIPS--X"},
                                                                         {"A1\nA2", "CAU_A1-A2"},
+                                                                        {"AU01", "UFAU_1"},
+                                                                        {"au04_L", "UFAU_4L"},
+                                                                        {"012", "LFAU_12"},
+                                                                        {"012LW", "LFAU_12LW"},
+                                                                        {"LFAU_012R", "LFAU_12R"},
+                                                                        {"AU01+AU04", "CAU_A1A4"},
+                                                                        {"A01A04", "CAU_A1A4"},
+                                                                        {"CAU_A26A012lw", "CAU_A26A12LW"},
+                                                                        {"YR_R05", "YR_R05"},
                                                                         {"5", "UFAU_5"}};
     for (const auto& [text, expected] : spellings) {
         const auto id = parse_expression(text);
@@ -97,6 +106,19 @@ TEST(Expression, the_usual_spellings_find_their_group_and_code) {
         EXPECT_EQ(id->expression(), expected) << text;
     }
     EXPECT_FALSE(parse_expression(" _ "));
+}
+
+TEST(Expression, letters_beyond_ascii_are_kept_where_they_are_utf8) {
+    for (const auto& [text, expected] : {std::pair{"E_\u00e9", "E_\u00e9"},
+                                         {"E_\u00fc", "E_\u00fc"},
+                                         {"\u5fae\u7b11", "OTHER_\u5fae\u7b11"},
+                                         {"bite \u00fc!", "OTHER_BITE-\u00fc-"},
+                                         {"E_\xE9", "E_-"},                 // Latin-1
+                                         {"E_\xC0\xAF", "E_--"},            // a '/' in two bytes
+                                         {"E_\xED\xA0\x80", "E_---"},       // half a pair of UTF-16
+                                         {"E_\xF4\x90\x80\x80", "E_----"},  // beyond the last character
+                                         {"E_\xE5\xBE", "E_--"}})           // cut
+        EXPECT_EQ(parse_expression(text)->expression(), expected) << text;
 }
 
 TEST(ActionUnit, groups_are_those_of_the_face) {

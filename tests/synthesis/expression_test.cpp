@@ -34,6 +34,11 @@ TEST(Expression, groups_follow_the_face_half_and_lists_keep_their_order_without_
     EXPECT_EQ(make_expressions("all").size(), 10U + 6U + 16U);
 }
 
+TEST(Expression, a_number_with_leading_zeros_is_the_number) {
+    for (const char* spelling : {"AU04", "04", "UFAU_04"}) EXPECT_EQ(make_expression(spelling).code, "4") << spelling;
+    EXPECT_EQ(make_expressions("12,012,AU012").size(), 1U);
+}
+
 TEST(Expression, a_jaw_goes_to_the_side_that_is_named_and_needs_one) {
     EXPECT_EQ(make_expression("30L").main_shapes.at(0).shape, "jawLeft");
     EXPECT_EQ(make_expression("30R").main_shapes.at(0).shape, "jawRight");
