@@ -188,10 +188,13 @@ geometry::Mesh lattice_mesh(const geometry::RangeScan& scan) {
     return mesh;
 }
 
+/// A texture that cannot be used is told: another image may take its place, or none be wanted.
 geometry::MeshFile read_face(const fs::path& file, geometry::LengthUnit unit) {
-    if (!geometry::equal_ignoring_case(file.extension().string(), ".bnt")) return geometry::read_mesh_file(file, unit);
-    const auto scan = database::read_bnt_scan(file, unit);
-    return {.mesh = lattice_mesh(scan), .texture_file = scan.texture_file};
+    constexpr auto report = geometry::BadTexture::report;
+    if (!geometry::equal_ignoring_case(file.extension().string(), ".bnt"))
+        return geometry::read_mesh_file(file, unit, geometry::MeshParts::all, report);
+    const auto scan = database::read_bnt_scan(file, unit, report);
+    return {.mesh = lattice_mesh(scan), .texture_file = scan.texture_file, .texture_error = scan.texture_error};
 }
 
 std::vector<Point> positions(const fs::path& file, const geometry::Mesh& mesh, geometry::LengthUnit unit) {
@@ -235,6 +238,7 @@ Panel load_panel(const PanelDescription& description) {
     if (!description.texture.empty()) {
         panel.texture = geometry::read_image(description.texture);
     } else if (description.textured) {
+        if (!face.texture_error.empty()) throw InputError(face.texture_error);
         if (face.texture_file.empty())
             throw InputError(fmt::format("{}: names no texture; give one", description.mesh.string()));
         const auto image = description.mesh.parent_path() / face.texture_file;

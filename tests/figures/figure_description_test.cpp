@@ -219,5 +219,26 @@ TEST_F(LoadFigure, a_missing_file_and_a_missing_texture_are_named) {
                 AllOf(HasSubstr("face.ply"), HasSubstr("no texture")));
 }
 
+TEST_F(LoadFigure, a_texture_name_that_cannot_be_used_is_an_error_only_where_it_is_used) {
+    (void)written("face.obj", "mtllib face.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+    (void)written("face.mtl", "newmtl skin\nmap_Kd C:\\scans\\face.jpg\n");
+    geometry::RangeScan scan;
+    scan.rows = scan.cols = 2;
+    scan.points_mm = {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(1, 1, 0)};
+    auto bnt = database::to_bnt(scan);
+    bnt.texture_file = "../x.png";
+    database::write_bnt(folder_ / "face.bnt", bnt);
+    geometry::write_png(folder_ / "skin.png", geometry::Image{1, 1, {200, 150, 120}});
+    for (const auto& [name, texture] : {std::pair{"face.obj", "'C:"}, {"face.bnt", "'../x.png'"}}) {
+        PanelDescription panel{.mesh = folder_ / name};
+        EXPECT_NO_THROW((void)load_figure({.panels = {panel}})) << name;
+        panel.textured = true;
+        EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {panel}}); }),
+                    AllOf(HasSubstr("texture name is "), HasSubstr(texture)));
+        panel.texture = folder_ / "skin.png";
+        EXPECT_NO_THROW((void)load_figure({.panels = {panel}})) << name;
+    }
+}
+
 }  // namespace
 }  // namespace mimik::figures
