@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
 #include <vtkFreeTypeTools.h>
@@ -14,6 +13,8 @@
 #include <vtkNew.h>
 #include <vtkTextProperty.h>
 #include <vtkUnicodeString.h>
+
+#include "geometry/file.h"
 
 namespace mimik::figures {
 namespace {
@@ -29,7 +30,7 @@ vtkFreeTypeTools& free_type() {
 void set_font(vtkTextProperty& property, int size_px) {
     // DejaVu has every letter a caption may need; the font that VTK carries inside itself has few beyond ASCII.
     constexpr const char* dejavu = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-    static const bool has_dejavu = std::filesystem::exists(dejavu);
+    static const bool has_dejavu = geometry::is_there(dejavu);
     property.SetFontFamily(has_dejavu ? VTK_FONT_FILE : VTK_ARIAL);
     if (has_dejavu) property.SetFontFile(dejavu);
     property.SetFontSize(size_px);

@@ -87,6 +87,11 @@ std::string read_text_head(const std::filesystem::path& file, std::size_t max_by
     return read_first<std::string>(file, std::min<std::uintmax_t>(size_of(file), max_bytes));
 }
 
+bool is_there(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+}
+
 void write_atomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
     std::error_code error;
     if (file.filename().empty() || std::filesystem::is_directory(file, error))

@@ -22,6 +22,10 @@ namespace mimik::geometry {
 /// regular file.
 [[nodiscard]] std::string read_text_head(const std::filesystem::path& file, std::size_t max_bytes);
 
+/// Whether there is such a file or folder; no, too, where the system will not look for it (links in a circle, a name
+/// too long, a folder that may not be entered).
+[[nodiscard]] bool is_there(const std::filesystem::path& path);
+
 /// Writes to a temporary beside `file`, then renames: nobody ever sees half a file. Folders are made. The stream has
 /// the classic locale. @throws InputError naming the file if it cannot be written.
 void write_atomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);

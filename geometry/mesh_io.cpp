@@ -75,10 +75,9 @@ void find_texture(MeshFile& content, MeshFormat format, const std::filesystem::p
     content.material_file = named.generic_string();
     const auto material = file.parent_path() / named;
     // A missing material file takes the texture away, not the mesh.
-    content.texture_file =
-        std::filesystem::exists(material)
-            ? formats::texture_of_material(read_text(material, std::uintmax_t{1} << 24), material.string())
-            : std::string();
+    content.texture_file = is_there(material) ? formats::texture_of_material(
+                                                    read_text(material, std::uintmax_t{1} << 24), material.string())
+                                              : std::string();
     if (!content.texture_file.empty())
         content.texture_file =
             (named.parent_path() / checked_texture_path(content.texture_file, material.string())).generic_string();

@@ -66,7 +66,7 @@ WarpInput read_input(const std::filesystem::path& input, const std::filesystem::
 /// if there is no image.
 std::string copy_texture(const std::string& texture, const std::filesystem::path& folder,
                          const std::filesystem::path& output, const WarpOptions& warp_options) {
-    if (texture.empty() || !std::filesystem::exists(folder / texture)) return {};
+    if (texture.empty() || !is_there(folder / texture)) return {};
     if (warp_options.check_texture) warp_options.check_texture(folder / texture);
     const auto image = read_text(folder / texture);
     const auto extension = std::filesystem::path(texture).extension().string();

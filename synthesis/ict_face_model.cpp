@@ -149,8 +149,12 @@ private:
     void read_modes_and_shapes(const fs::path& folder) {
         std::vector<fs::path> files;
         std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder))
-            if (entry.path().extension() == ".obj") files.push_back(entry.path());
+        std::error_code error;
+        for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+            if (entry->path().extension() == ".obj") files.push_back(entry->path());
+        if (error)
+            throw InputError(
+                fmt::format("{}: cannot be listed ({}); make the folder readable", folder.string(), error.message()));
         std::sort(files.begin(), files.end());
         // Gaze and pupils do not move skin that a scanner measures; the mean face is read already.
         std::erase_if(files, [](const fs::path& file) {
@@ -234,7 +238,7 @@ private:
 
 std::unique_ptr<FaceModel> load_ict_face_model(const std::string& folder) {
     for (const fs::path& candidate : {fs::path(folder), fs::path(folder) / "FaceXModel"})
-        if (fs::is_regular_file(candidate / "generic_neutral_mesh.obj"))
+        if (geometry::is_there(candidate / "generic_neutral_mesh.obj"))
             return std::make_unique<IctFaceModel>(candidate);
     throw InputError(
         fmt::format("{}: no generic_neutral_mesh.obj there or in FaceXModel below; give a clone of the public "

@@ -36,7 +36,7 @@ std::vector<geometry::Point> TrueScan::head_vertices_mm() const {
 
 Truth open_truth(const fs::path& database_root) {
     const fs::path file = database_root / "truth" / "truth.json";
-    if (!fs::exists(file))
+    if (!geometry::is_there(file))
         throw InputError(
             fmt::format("{}: missing; only a database made by 'mimik synthesize' has a known truth", file.string()));
     auto truth = decode_truth(geometry::read_text(file, geometry::most_json_bytes), file.string());

@@ -362,6 +362,19 @@ TEST(MeshFiles, a_texture_name_that_cannot_be_used_leaves_the_surface_on_request
     EXPECT_THAT(file.texture_error, HasSubstr("a.mtl: texture name is 'C:\\scans\\face.jpg'; put the image"));
 }
 
+TEST(MeshFiles, a_material_file_that_the_system_will_not_look_for_takes_the_texture_and_not_the_surface) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("loop", folder / "loop");
+    std::string too_long;  // each part is allowed, the whole is more than Linux takes
+    for (int k = 0; k < 16; ++k) too_long += std::string(250, 'x') + "/";
+    for (const auto& name : {std::string("loop"), too_long + "a.mtl"}) {
+        write_atomically(folder / "a.obj", "mtllib " + name + "\nv 0 0 0\n");
+        const auto file = read_mesh_file(folder / "a.obj");
+        EXPECT_EQ(file.mesh.vertices_mm.size(), 1U) << name;
+        EXPECT_EQ(file.texture_file, "") << name;
+    }
+}
+
 TEST(MeshFiles, an_unknown_extension_is_refused_with_those_there_are) {
     EXPECT_THAT(message_of([] { (void)mesh_format("scan.xyz"); }),
                 HasSubstr("scan.xyz: extension '.xyz' is no mesh format; there are .ply, .obj"));

@@ -121,6 +121,14 @@ TEST_F(Warp, refuses_a_texture_name_only_for_an_output_that_takes_the_texture) {
                     HasSubstr("texture name is 'C:"));
 }
 
+TEST_F(Warp, goes_without_an_image_that_the_system_will_not_look_for) {
+    write_atomically(at("in.obj"), "mtllib in.mtl\nv 2 2 2\nv 4 0 0\nv 4 4 4\nf 1 2 3\n");
+    write_atomically(at("in.mtl"), "newmtl skin\nmap_Kd loop.png\n");
+    std::filesystem::create_symlink("loop.png", at("loop.png"));
+    (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("out.obj"));
+    EXPECT_EQ(read_mesh_file(at("out.obj")).texture_file, "");
+}
+
 TEST_F(Warp, of_a_point_whose_place_has_no_number_is_refused_by_its_name) {
     write_atomically(at("in.csv"), "name,x,y,z\nnear,2,2,2\nfar,1e200,0,0\n");
     EXPECT_THAT(

@@ -63,6 +63,8 @@ TEST(IctFaceModel, a_wrong_folder_and_a_cut_file_are_named) {
     } catch (const InputError& e) {
         EXPECT_THAT(e.what(), testing::HasSubstr("generic_neutral_mesh.obj"));
     }
+    EXPECT_THAT(database::message_of<InputError>([] { (void)load_ict_face_model(std::string(5000, 'x')); }),
+                testing::HasSubstr("no generic_neutral_mesh.obj"));
     std::ofstream(folder / "generic_neutral_mesh.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     try {
         (void)load_ict_face_model(folder.string());

@@ -265,6 +265,7 @@ TEST_F(Synthesize, a_folder_in_use_and_a_folder_without_truth_are_named) {
     } catch (const InputError& e) {
         EXPECT_THAT(e.what(), HasSubstr("truth.json"));
     }
+    EXPECT_THROW((void)open_truth(std::string(5000, 'x')), InputError);
     options_.subjects = 0;
     EXPECT_THROW((void)synthesize_database(folder_ / "other", *model, options_), InputError);
 }
