@@ -1,5 +1,7 @@
 #include "geometry/image.h"
 
+#include <algorithm>
+#include <array>
 #include <csetjmp>
 #include <cstring>
 
@@ -107,6 +109,13 @@ bool decode_rows(Input& input, PngState& state, std::uint32_t width, std::uint32
     return true;
 }
 
+/// A file cut behind its pixels can be decoded, but is no PNG to others.
+bool ends_as_png(std::span<const std::uint8_t> bytes) {
+    static constexpr std::array<std::uint8_t, 12> last_chunk = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
+    return bytes.size() >= last_chunk.size() &&
+           std::equal(last_chunk.begin(), last_chunk.end(), bytes.end() - last_chunk.size());
+}
+
 bool encode_rows(std::vector<std::uint8_t>& bytes, PngState& state, const Image& image) {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, on_error, on_warning);
     if (!png) return false;
@@ -190,8 +199,8 @@ std::array<int, 2> image_size(const std::filesystem::path& file) {
 std::vector<std::uint8_t> read_as_png(const std::filesystem::path& file) {
     auto bytes = read_bytes(file);
     if (is_jpeg(bytes)) return encode_png(decode_jpeg(bytes, file.string()));
-    (void)parse_png_header(bytes, file.string());
-    return bytes;
+    const auto image = decode_png(bytes, file.string());
+    return ends_as_png(bytes) ? bytes : encode_png(image);
 }
 
 }  // namespace mimik::geometry

@@ -27,7 +27,8 @@ void write_png(const std::filesystem::path& file, const Image& image);
 [[nodiscard]] Image read_image(const std::filesystem::path& file);
 /// Width and height from the header alone.
 [[nodiscard]] std::array<int, 2> image_size(const std::filesystem::path& file);
-/// For files that hold a PNG: a PNG as it is (its header is checked), a JPEG decoded and encoded anew.
+/// For files that hold a PNG: a PNG as it is, a JPEG or a PNG without its last chunk encoded anew. All are decoded.
+/// @throws InputError as read_image.
 [[nodiscard]] std::vector<std::uint8_t> read_as_png(const std::filesystem::path& file);
 
 }  // namespace mimik::geometry

@@ -100,5 +100,20 @@ TEST(Png, errors_name_the_file_and_what_is_wrong) {
     EXPECT_THAT(message_of([] { (void)encode_png({3, 3, {1, 2}}); }), HasSubstr("3 x 3 pixels with 2 bytes"));
 }
 
+TEST(Png, what_is_handed_on_is_a_whole_image) {
+    const TemporaryFolder folder;
+    const auto image = gradient(64, 64);
+    const auto bytes = encode_png(image);
+    const std::string good(bytes.begin(), bytes.end());
+    write_atomically(folder / "a.png", good.substr(0, good.size() / 2));
+    EXPECT_THAT(message_of([&] { (void)read_as_png(folder / "a.png"); }),
+                HasSubstr("a.png: the PNG cannot be decoded"));
+    write_atomically(folder / "a.png", good);
+    EXPECT_EQ(read_as_png(folder / "a.png"), bytes);
+    constexpr std::size_t end_chunk = 12;
+    write_atomically(folder / "a.png", good.substr(0, good.size() - end_chunk));  // every pixel is there
+    EXPECT_EQ(read_as_png(folder / "a.png"), bytes);
+}
+
 }  // namespace
 }  // namespace mimik::geometry
