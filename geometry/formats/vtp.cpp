@@ -92,7 +92,8 @@ public:
         : name_(name),
           parts_(parts),
           // Bytes that are not compressed become numbers of at most eight times their size.
-          memory_left_(std::max<std::uint64_t>(most_decoded_bytes, sizeof(double) * bytes.size())) {
+          most_memory_(std::max<std::uint64_t>(most_decoded_bytes, sizeof(double) * bytes.size())),
+          memory_left_(most_memory_) {
         const auto text = as_text(bytes);
         // Raw appended data is not XML: the document is read without it.
         const auto begin = text.find("<AppendedData");
@@ -163,7 +164,7 @@ private:
             fail(
                 fmt::format("array {} has {} values; with it all arrays take more than {} MB of memory; leave arrays "
                             "out or thin the mesh out",
-                            in_quotes(what), values, most_decoded_bytes >> 20));
+                            in_quotes(what), values, most_memory_ >> 20));
         memory_left_ -= sizeof(double) * values;
     }
 
@@ -284,7 +285,12 @@ private:
         } else {
             std::vector<std::uint8_t> bytes;
             const auto size = size_of(array.type);
-            const auto admit_bytes = [&](std::uint64_t count) { admit(array, what, count / size, points); };
+            const auto admit_bytes = [&](std::uint64_t count) {
+                if (count % size != 0)
+                    fail(fmt::format("array {} has {} bytes, not a multiple of the {} of a value; the file is damaged",
+                                     in_quotes(what), count, size));
+                admit(array, what, count / size, points);
+            };
             if (format == "binary") {
                 bytes = block_bytes({}, node.text().get(), false, what, admit_bytes);
             } else if (format == "appended") {
@@ -399,6 +405,7 @@ private:
 
     std::string name_;
     MeshParts parts_;
+    std::uint64_t most_memory_;  ///< that all arrays may take
     std::uint64_t memory_left_;  ///< for the arrays still to be read
     std::shared_ptr<const pugi::xml_document> document_;
     std::span<const std::uint8_t> appended_;

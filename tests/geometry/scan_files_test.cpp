@@ -414,6 +414,22 @@ TEST(Vtp, arrays_that_share_compressed_data_do_not_get_more_memory_than_the_limi
         1'000'000U);
 }
 
+TEST(Vtp, the_limit_that_is_said_is_the_one_that_applies) {
+    // Eight times a file of 36 MB is 288 MB, more than the 256 MB that any file may have; twelve arrays fit.
+    EXPECT_THAT(refused(MeshFormat::vtp, compressed_vtp(1'000'000, 400) + std::string(std::size_t{36} << 20U, ' ')),
+                HasSubstr("scan: array 'copy11' has 3000000 values; with it all arrays take more than 288 MB"));
+}
+
+TEST(Vtp, an_array_that_ends_inside_a_value_is_refused) {
+    std::string text =
+        "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\"><Points><DataArray type=\"Float32\" "
+        "NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></Points></Piece></PolyData>"
+        "<AppendedData encoding=\"raw\">_";
+    append(text, std::uint32_t{39});
+    EXPECT_THAT(refused(MeshFormat::vtp, text + std::string(39, '\0') + "</AppendedData></VTKFile>"),
+                HasSubstr("scan: array 'Points' has 39 bytes, not a multiple of the 4 of a value"));
+}
+
 TEST(Vtp, a_compressed_array_of_another_length_than_the_points_is_refused_by_its_header) {
     auto text = compressed_vtp(1'000'000, 1);
     const std::string stated = "NumberOfPoints=\"1000000\"";
