@@ -73,8 +73,7 @@ FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
             scan = scan.substr(0, scan.find('.'));  // some lists name the file
             const auto id = parse_scan_name(scan);
             auto codes = parse_codes(geometry::trimmed(line.substr(arrow + 2)));
-            const bool header = lines.number() <= 2 && !codes.unknown.empty();
-            if (id && codes.any && !header) {
+            if (id && codes.any) {
                 for (const auto code : codes.unknown)
                     remark(
                         fmt::format("code {} of {} is no action unit with an optional L or R before and A to E after "

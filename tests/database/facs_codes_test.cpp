@@ -40,6 +40,14 @@ TEST(FacsCodes, an_unknown_code_is_remarked_and_the_others_of_its_scan_are_kept)
                                                     HasSubstr("list: line 4: code '' of bs000_LFAU_9_0")));
 }
 
+TEST(FacsCodes, a_scored_scan_in_the_first_lines_is_kept_beside_an_unknown_code) {
+    const auto codes = parse_facs_codes("bs000_LFAU_12_0 -> 12D+T23B\nbs000_LFAU_9_0 -> 9B\n", "list");
+    ASSERT_EQ(codes.scores.size(), 2U);
+    EXPECT_THAT(codes.scores.at(*parse_scan_name("bs000_LFAU_12_0")),
+                testing::ElementsAre(FacsScore{12, Side::both, 'D'}));
+    EXPECT_THAT(codes.remarks, testing::ElementsAre(HasSubstr("list: line 1: code 'T23B' of bs000_LFAU_12_0")));
+}
+
 TEST(FacsCodes, header_lines_may_show_the_form_with_its_arrow) {
     const auto codes = parse_facs_codes("scores of -> all\nname -> code+code+...\nbs003_N_N_0 -> 0\n", "list");
     EXPECT_EQ(codes.scores.size(), 1U);
