@@ -21,32 +21,6 @@ namespace {
 
 constexpr std::uintmax_t max_file_bytes = 4 << 20;
 
-/// "22 landmarks:" after comments ('#') and a block of free text ('*' up to the next empty line).
-std::size_t read_count(geometry::LineReader& lines) {
-    while (lines.next_not_blank()) {
-        if (lines.line().front() == '#') continue;
-        if (lines.line().front() == '*') {
-            while (lines.next() && !geometry::trimmed(lines.line()).empty()) {
-            }
-            continue;
-        }
-        std::string_view rest = lines.line();
-        const auto word = geometry::next_word(rest);
-        const auto count = geometry::parse_integer(word);
-        if (!count || !geometry::equal_ignoring_case(geometry::trimmed(rest), "landmarks:"))
-            lines.fail(
-                fmt::format("{} stands where the number of landmarks is expected, such as '22 landmarks:'; the file is "
-                            "damaged or of another format",
-                            geometry::in_quotes(lines.line())));
-        if (*count < 0 || *count > static_cast<std::int64_t>(geometry::most_landmarks))
-            lines.fail(fmt::format("{} landmarks; a face has 0 to {}", *count, geometry::most_landmarks));
-        return static_cast<std::size_t>(*count);
-    }
-    throw InputError(fmt::format(
-        "{}: no line gives the number of landmarks, such as '22 landmarks:'; the file is empty or truncated",
-        lines.file_name()));
-}
-
 struct Label {
     std::string_view label;
     std::string_view stem;  ///< our name, without the side if it has one
@@ -301,7 +275,7 @@ void write_lm3(const std::filesystem::path& file, const geometry::Landmarks& bos
 
 std::vector<ImageLandmark> parse_lm2(std::string_view text, const std::string& name) {
     geometry::LineReader lines(text, name);
-    const std::size_t count = read_count(lines);
+    const std::size_t count = geometry::read_landmark_count(lines);
     const auto next = [&](const std::string& what) {
         if (!lines.next_not_blank())
             throw InputError(fmt::format("{}: ends before {}; the file is truncated: copy it again", name, what));

@@ -7,6 +7,7 @@
 
 #include "geometry/landmarks.h"
 #include "geometry/mesh_io.h"
+#include "geometry/text.h"
 
 namespace mimik::geometry {
 
@@ -16,6 +17,10 @@ enum class LandmarkFormat { csv, pp, fcsv, mrk_json, lm3 };
 
 /// A file with more is refused: these are marks made by hand.
 inline constexpr std::size_t most_landmarks = 10000;
+
+/// Reads on to the line "22 landmarks:" of an .lm3 or .lm2 and returns its number. Before it stand comments ('#'), free
+/// text (from '*' to the next empty line) or whatever else is no such line. @throws InputError naming line and value.
+[[nodiscard]] std::size_t read_landmark_count(LineReader& lines);
 
 /// Landmarks as a file has them: labels untouched (name == original_label), file's own frame.
 ///   .csv       header with name,x,y,z (any order, further columns ignored)

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -8,27 +9,43 @@
 #include "geometry/landmark_io.h"
 #include "geometry/text.h"
 
-namespace mimik::geometry::formats {
+namespace mimik::geometry {
+
+std::size_t read_landmark_count(LineReader& lines) {
+    std::optional<LineReader> other;  // at the first line that is nothing known
+    bool free_text = false;
+    while (lines.next()) {
+        std::string_view rest = trimmed(lines.line());
+        if (rest.starts_with('#')) continue;
+        free_text = !rest.empty() && (free_text || rest.starts_with('*'));
+        const auto number = next_word(rest);
+        const bool announced = equal_ignoring_case(trimmed(rest), "landmarks:");
+        if (const auto count = parse_integer(number); announced && count) {
+            if (*count < 0 || *count > static_cast<std::int64_t>(most_landmarks))
+                lines.fail(fmt::format("the number of landmarks is {}; a face has 0 to {}", *count, most_landmarks));
+            return static_cast<std::size_t>(*count);
+        }
+        if (free_text || number.empty()) continue;
+        if (announced) lines.fail(fmt::format("the number of landmarks is {}, not a whole number", in_quotes(number)));
+        if (!other) other = lines;
+    }
+    if (other)
+        other->fail(
+            fmt::format("{} stands where the number of landmarks is expected, such as '22 landmarks:'; the file is "
+                        "damaged or of another format",
+                        in_quotes(other->line())));
+    throw InputError(fmt::format(
+        "{}: has no line '<N> landmarks:', such as '22 landmarks:'; it is empty, truncated or of another format",
+        lines.file_name()));
+}
+
+namespace formats {
 
 RawLandmarks decode_lm3(std::string_view text, const std::string& name) {
     LineReader lines(text, name);
-    // Comments and free text stand before the line "<N> landmarks:".
-    std::int64_t count = -1;
-    while (count < 0 && lines.next()) {
-        std::string_view rest = lines.line();
-        const auto number = next_word(rest);
-        if (!equal_ignoring_case(next_word(rest), "landmarks:") || number.starts_with('#')) continue;
-        const auto value = parse_integer(number);
-        if (!value || *value < 0)
-            lines.fail(fmt::format("the number of landmarks is {}, not a whole number", in_quotes(number)));
-        if (*value > static_cast<std::int64_t>(most_landmarks))
-            lines.fail(
-                fmt::format("the number of landmarks is {}, more than the {} that are read", *value, most_landmarks));
-        count = *value;
-    }
-    if (count < 0) throw InputError(fmt::format("{}: has no line '<N> landmarks:'; it is not an .lm3 file", name));
+    const auto count = read_landmark_count(lines);
     RawLandmarks raw;
-    for (std::int64_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         if (!lines.next_not_blank())
             throw InputError(
                 fmt::format("{}: has {} of the {} landmarks that it announces; it is truncated", name, i, count));
@@ -66,4 +83,5 @@ std::string encode_lm3(const Landmarks& landmarks) {
     return text;
 }
 
-}  // namespace mimik::geometry::formats
+}  // namespace formats
+}  // namespace mimik::geometry

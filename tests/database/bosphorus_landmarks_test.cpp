@@ -107,6 +107,28 @@ TEST(Lm2, damage_is_reported_with_file_and_line) {
                 HasSubstr("x y of landmark 'A'"));
 }
 
+TEST(BosphorusFiles, the_head_of_lm2_and_lm3_is_one_format) {
+    const std::string in_3d = "Nose tip\n1 2 3\n", in_2d = "\nLabels:\nNose tip\n\n2D Image coordinates:\n1 2\n";
+    for (const char* head : {"1 landmarks:\n", "# x\r\n\r\n1 Landmarks: \r\n",
+                             "* made by hand\n5 landmarks: are not seen\n\n1 landmarks:\n",
+                             "made by hand\n1 landmarks:\n", "* no empty line follows\n1 landmarks:\n"}) {
+        EXPECT_EQ(parse_lm3(head + in_3d, "a.lm3").size(), 1U) << head;
+        EXPECT_EQ(parse_lm2(head + in_2d, "a.lm2").size(), 1U) << head;
+    }
+    for (const auto& [head, fault] :
+         {std::pair{"",
+                    "has no line '<N> landmarks:', such as '22 landmarks:'; it is empty, truncated or of another "
+                    "format"},
+          {"# 22 landmarks:\n", "has no line '<N> landmarks:'"},
+          {"# x\n\n2 landmark:\n", "line 3: '2 landmark:' stands where the number of landmarks is expected"},
+          {"# x\n-1 landmarks:\n", "line 2: the number of landmarks is -1; a face has 0 to 10000"},
+          {"10001 landmarks:\n", "line 1: the number of landmarks is 10001; a face has 0 to 10000"},
+          {"few landmarks:\n", "line 1: the number of landmarks is 'few', not a whole number"}}) {
+        EXPECT_THAT(lm3_error(head), HasSubstr(std::string("bad.lm3: ") + fault));
+        EXPECT_THAT(lm2_error(head), HasSubstr(std::string("bad.lm2: ") + fault));
+    }
+}
+
 TEST(BosphorusLabels, left_labels_on_the_image_left_are_the_subjects_right) {
     SideReport report;
     const auto named = from_bosphorus_labels(marks({{"Outer left eye corner", -40},

@@ -297,7 +297,7 @@ TEST(Load, bad_pixel_landmarks_do_not_forbid_the_scan) {
     write_scan(folder.path(), "bs000_N_N_0", make_face());
     geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm2", "# x\n");
     EXPECT_THAT(load(open_database(folder.path()).scans[0]).remarks,
-                ElementsAre(HasSubstr("bs000_N_N_0.lm2: no line gives")));
+                ElementsAre(HasSubstr("bs000_N_N_0.lm2: has no line")));
 }
 
 TEST(Load, files_that_only_the_scan_file_names_are_listed) {
