@@ -16,6 +16,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/text.h"
 
 namespace mimik::database {
 namespace {
@@ -138,6 +139,10 @@ Bnt decode_bnt(std::span<const std::uint8_t> bytes, const std::string& name) {
 }
 
 // Reads straight into the five columns: no second copy of the file in memory.
+bool is_bnt(const std::filesystem::path& file) {
+    return geometry::equal_ignoring_case(file.extension().string(), ".bnt");
+}
+
 Bnt read_bnt(const std::filesystem::path& file) {
     const std::string name = file.string();
     const OpenFile open(file);

@@ -21,6 +21,8 @@ struct Bnt {
     std::vector<double> x, y, z, u, v;  ///< rows * cols each, row-major, row 0 lowest; v counts from the image's top
 };
 
+/// By extension, case ignored.
+[[nodiscard]] bool is_bnt(const std::filesystem::path& file);
 /// @throws InputError naming file, field, value: truncated, absurd sizes, 5 * rows * cols != value count, ...
 [[nodiscard]] Bnt read_bnt(const std::filesystem::path& file);
 [[nodiscard]] Bnt decode_bnt(std::span<const std::uint8_t> bytes, const std::string& name);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "database/bnt.h"
 #include "geometry/errors.h"
 #include "geometry/json_values.h"
 #include "geometry/landmark_io.h"
@@ -151,16 +152,18 @@ void check_axis(const AxisWitnesses& by, const AxisWords& words, Report& report)
                         against_texture ? falls(words.of_texture, *by.texture) : falls(words.of_lattice, *by.lattice),
                         words.axis),
             words.mend);
+    const bool upright = !by.head_mirrored.value_or(true);
     if (against_texture)
-        report.add(Severity::warning, "texture",
-                   fmt::format("{}, though nothing else says that {} is mirrored: the texture coordinates are",
-                               falls(words.of_texture, *by.texture), words.axis),
-                   words.turn_texture);
+        report.add(
+            Severity::warning, "texture",
+            fmt::format("{}, though {}: the texture coordinates are mirrored", falls(words.of_texture, *by.texture),
+                        upright ? "the head stands upright" : fmt::format("nothing else says that {} is", words.axis)),
+            words.turn_texture);
     if (against_lattice)
         report.add(
             Severity::warning, "frame",
             fmt::format("{}, though {}: the lattice is stored the other way", falls(words.of_lattice, *by.lattice),
-                        by.texture && !against_texture ? "not against the texture" : "the head stands upright"),
+                        upright ? "the head stands upright" : "not against the texture"),
             words.turn_lattice);
 }
 
@@ -363,6 +366,9 @@ void check_texture(const LoadedScan& loaded, Report& report) {
         report.add(
             Severity::warning, "texture", loaded.scan.texture_error,
             "name an image that lies in the scan's folder; until then the scan is used without the one it names");
+    if (auto smeared = smeared_texture(loaded.scan); !smeared.empty())
+        report.add(Severity::note, "texture", std::move(smeared),
+                   "export the scan with one chart (a picture from the front); its surface is not concerned");
     if (entry.texture_file.empty()) {
         if (!loaded.scan.texture_file.empty())
             report.add(Severity::note, "texture",
@@ -384,14 +390,15 @@ void check_texture(const LoadedScan& loaded, Report& report) {
                    fmt::format("the image does not fit the scan: landmarks are off by {:.0f} pixels at best",
                                *std::min_element(found->median_error_px.begin(), found->median_error_px.end())),
                    "check that image, scan and .lm2 are of the same recording", entry.texture_file.string());
-    else if (found && !found->as_expected())
+    else if (const bool v_from_top = is_bnt(entry.scan_file); found && !found->as_expected())
         report.add(
             Severity::warning, "texture",
             fmt::format(
                 "texture coordinates lie {} ({:.0f} pixels off, instead of {:.0f} as expected); Mimik turns them",
-                to_string(found->best), found->median_error_px[static_cast<std::size_t>(found->best)],
+                to_string(found->best, v_from_top), found->median_error_px[static_cast<std::size_t>(found->best)],
                 found->median_error_px[0]),
-            "write the scan again with u to the right and v down from the top (as .bnt has it)");
+            fmt::format("write the scan again with u to the right and v {}",
+                        v_from_top ? "down from the top (as .bnt has it)" : "up from the bottom"));
 }
 
 }  // namespace

@@ -216,9 +216,8 @@ void decide_code_sides(ScanDatabase& database) {
 
 geometry::RangeScan read_scan(const ScanEntry& entry) {
     try {
-        return same(entry.scan_file.extension().string(), ".bnt")
-                   ? read_bnt_scan(entry.scan_file, entry.unit, geometry::BadTexture::report)
-                   : geometry::read_range_scan(entry.scan_file, entry.unit);
+        return is_bnt(entry.scan_file) ? read_bnt_scan(entry.scan_file, entry.unit, geometry::BadTexture::report)
+                                       : geometry::read_range_scan(entry.scan_file, entry.unit);
     } catch (const InputError&) {
         throw;
     } catch (const std::exception& e) {  // memory that the system refused, say
@@ -265,10 +264,7 @@ void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& near
     ScanEntry& entry = loaded.entry;
     std::error_code ignored;
     if (!loaded.scan.texture_error.empty()) loaded.remarks.push_back(loaded.scan.texture_error);
-    if (loaded.scan.texture_seam_points > 0)
-        loaded.remarks.push_back(
-            fmt::format("its texture has several charts: at {} points that lie in more than one the texture is smeared",
-                        loaded.scan.texture_seam_points));
+    if (auto smeared = smeared_texture(loaded.scan); !smeared.empty()) loaded.remarks.push_back(std::move(smeared));
     if (const auto& named = loaded.scan.material_file; !named.empty())
         loaded.files_looked_for.push_back(entry.scan_file.parent_path() / named);
     if (const auto& named = loaded.scan.texture_file; !named.empty()) {
@@ -305,7 +301,8 @@ void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& near
         return;
     }
     reorient_texture(loaded.scan, found->best);
-    loaded.remarks.push_back(fmt::format("texture coordinates lie {} and were turned", to_string(found->best)));
+    loaded.remarks.push_back(
+        fmt::format("texture coordinates lie {} and were turned", to_string(found->best, is_bnt(entry.scan_file))));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "geometry/text.h"
 #include "geometry/types.h"
 
@@ -60,16 +62,16 @@ private:
 
 }  // namespace
 
-std::string to_string(TextureAxes axes) {
+std::string to_string(TextureAxes axes, bool v_from_top) {
     switch (axes) {
         case TextureAxes::u_right_v_up:
-            return "u to the right, v up";
+            return v_from_top ? "u to the right, v down" : "u to the right, v up";
         case TextureAxes::u_right_v_down:
-            return "u to the right, v down";
+            return v_from_top ? "u to the right, v up" : "u to the right, v down";
         case TextureAxes::u_down_v_left:
-            return "u down, v to the left";
+            return v_from_top ? "u down, v to the right" : "u down, v to the left";
         case TextureAxes::u_up_v_left:
-            return "u up, v to the left";
+            return v_from_top ? "u up, v to the right" : "u up, v to the left";
     }
     return "";
 }
@@ -128,6 +130,12 @@ std::optional<TextureOrientation> texture_orientation(const geometry::RangeScan&
     if (2 * result.median_error_px[best] < result.median_error_px[0]) result.best = static_cast<TextureAxes>(best);
     result.fits = result.median_error_px[static_cast<std::size_t>(result.best)] < 0.03 * std::hypot(width, height);
     return result;
+}
+
+std::string smeared_texture(const geometry::RangeScan& scan) {
+    if (scan.texture_seam_points == 0) return {};
+    return fmt::format("its texture has several charts: at {} points that lie in more than one the texture is smeared",
+                       scan.texture_seam_points);
 }
 
 void reorient_texture(geometry::RangeScan& scan, TextureAxes axes) {

@@ -18,7 +18,8 @@ enum class TextureAxes {
     u_down_v_left,   ///< column = (1 - v) W, row = u H
     u_up_v_left      ///< column = (1 - v) W, row = (1 - u) H
 };
-[[nodiscard]] std::string to_string(TextureAxes axes);
+/// "u to the right, v up"; with `v_from_top` as a format says it that counts v from the image's top (.bnt).
+[[nodiscard]] std::string to_string(TextureAxes axes, bool v_from_top = false);
 
 struct TextureOrientation {
     TextureAxes best = TextureAxes::u_right_v_up;
@@ -47,6 +48,9 @@ struct NearestScanPoint {
                                                                     const std::vector<NearestScanPoint>& nearest,
                                                                     const std::vector<ImageLandmark>& image_landmarks,
                                                                     std::array<int, 2> image_size);
+
+/// What is to be said of a texture in several charts, from which a scan keeps one position per point; empty of others.
+[[nodiscard]] std::string smeared_texture(const geometry::RangeScan& scan);
 
 /// Turns texture coordinates that lie as `axes` says into u_right_v_up.
 void reorient_texture(geometry::RangeScan& scan, TextureAxes axes);

@@ -191,8 +191,7 @@ geometry::Mesh lattice_mesh(const geometry::RangeScan& scan) {
 /// A texture that cannot be used is told: another image may take its place, or none be wanted.
 geometry::MeshFile read_face(const fs::path& file, geometry::LengthUnit unit) {
     constexpr auto report = geometry::BadTexture::report;
-    if (!geometry::equal_ignoring_case(file.extension().string(), ".bnt"))
-        return geometry::read_mesh_file(file, unit, geometry::MeshParts::all, report);
+    if (!database::is_bnt(file)) return geometry::read_mesh_file(file, unit, geometry::MeshParts::all, report);
     const auto scan = database::read_bnt_scan(file, unit, report);
     return {.mesh = lattice_mesh(scan), .texture_file = scan.texture_file, .texture_error = scan.texture_error};
 }

@@ -174,6 +174,22 @@ TEST(Doctor, a_flipped_texture_on_an_upright_face_is_a_warning_about_the_texture
     }
 }
 
+TEST(Doctor, a_texture_and_a_lattice_both_against_an_upright_head_are_each_said_to_be) {
+    MadeFace face = make_face();
+    std::reverse(face.scan.points_mm.begin(), face.scan.points_mm.end());
+    std::reverse(face.scan.texture_coordinates.begin(), face.scan.texture_coordinates.end());
+    for (auto& t : face.scan.texture_coordinates) t.y() = 1 - t.y();
+    const auto findings = check_scan(loaded(face));
+    EXPECT_THAT(
+        found(findings, "texture"),
+        testing::AllOf(HasSubstr("warning: y falls while the texture goes up"),
+                       HasSubstr(", though the head stands upright: the texture coordinates are mirrored -> turn v")));
+    EXPECT_THAT(found(findings, "frame"),
+                testing::AllOf(HasSubstr("warning: y falls while the row goes up"),
+                               HasSubstr(", though the head stands upright: the lattice is stored the other way")));
+    EXPECT_THAT(found(findings, "texture") + found(findings, "frame"), testing::Not(HasSubstr("though nothing else")));
+}
+
 TEST(Doctor, a_mesh_upside_down_is_an_error_where_texture_and_landmarks_agree) {
     const auto face = mapped(as_mesh(make_face()), [](auto p) { return geometry::Point(p.x(), -p.y(), p.z()); });
     EXPECT_THAT(found(check_scan(loaded(face)), "frame"),
@@ -401,7 +417,28 @@ TEST(Doctor, a_texture_that_is_missing_damaged_or_turned_is_named) {
     EXPECT_THAT(found(check_scan(database.scans[0]), "texture"), HasSubstr("'bs000_N_N_0.png' is not beside it"));
     EXPECT_THAT(found(check_scan(database.scans[1]), "texture"), HasSubstr("bs000_N_N_1.png"));
     EXPECT_THAT(found(check_scan(database.scans[2]), "texture"),
-                HasSubstr("texture coordinates lie u to the right, v down"));
+                HasSubstr("texture coordinates lie u to the right, v up"));  // a .bnt counts v from the top
+}
+
+TEST(Doctor, a_turned_texture_and_its_mend_are_said_as_the_format_counts_v) {
+    auto scan = loaded(make_face());
+    scan.entry.texture_file = "image.png";
+    scan.checks.texture = {TextureAxes::u_right_v_down, {40, 1, 50, 50}, 22, true};
+    EXPECT_THAT(found(check_scan(scan), "texture"), testing::AllOf(HasSubstr("lie u to the right, v up ("),
+                                                                   HasSubstr("-> write the scan again with u to "
+                                                                             "the right and v down from the top")));
+    scan.entry.scan_file = "scan.PLY";
+    EXPECT_THAT(found(check_scan(scan), "texture"), testing::AllOf(HasSubstr("lie u to the right, v down ("),
+                                                                   HasSubstr("-> write the scan again with u to "
+                                                                             "the right and v up from the bottom")));
+}
+
+TEST(Doctor, a_texture_smeared_along_its_seams_is_a_note) {
+    auto scan = loaded(as_mesh(make_face()));
+    scan.scan.texture_seam_points = 61;
+    EXPECT_THAT(found(check_scan(scan), "texture"),
+                testing::AllOf(testing::StartsWith("note: its texture has several charts: at 61 points"),
+                               HasSubstr("-> export the scan with one chart")));
 }
 
 TEST(Doctor, findings_survive_json) {

@@ -276,8 +276,7 @@ TEST(Load, the_texture_is_checked_against_the_landmarks_and_turned_if_it_lies_ot
     const auto loaded = load(open_database(folder.path()).scans[0]);
     ASSERT_TRUE(loaded.checks.texture);
     EXPECT_EQ(loaded.checks.texture->best, TextureAxes::u_right_v_down);
-    EXPECT_THAT(loaded.remarks,
-                ElementsAre(HasSubstr("texture coordinates lie u to the right, v down and were turned")));
+    EXPECT_THAT(loaded.remarks, ElementsAre(HasSubstr("texture coordinates lie u to the right, v up and were turned")));
     for (std::size_t i = 0; i < right.size(); ++i)
         ASSERT_LT((loaded.scan.texture_coordinates[i] - right[i]).norm(), 1e-12);  // 1 - (1 - v)
     EXPECT_EQ(load_texture(loaded.entry)->width, 100);

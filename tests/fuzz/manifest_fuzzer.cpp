@@ -19,7 +19,8 @@ void fuzz_one(std::span<const std::uint8_t> bytes) {
 std::vector<std::string> seeds() {
     return {"subject,expression,scan,landmarks,sex,unit\nanna,N,a/x.ply,a/x.pp,f,mm\nanna,AU12_L,b.obj,,,cm\n",
             "subject,expression,scan\n\"b \"\"q\"\"\",AU22+AU25,../x.stl\n",
-            "scan,subject,expression\nx.pcd,J_D,bite lip\ny.pcd,J_D,e lips\x1d\n"};
+            "scan,subject,expression\nx.pcd,J_D,bite lip\ny.pcd,J_D,e lips\x1d\n",
+            "scan,subject,expression\nx.pcd,J,E_\u00e9\ny.pcd,J,\u5fae\u7b11\nz.pcd,J,A01A012LW\n"};
 }
 
 }  // namespace mimik::fuzzing
