@@ -205,7 +205,7 @@ TEST_F(WorkspaceTest, an_image_or_image_landmarks_that_come_change_or_go_make_th
         return Workspace(workspace_).face(*database::parse_scan_name("bs001_N_N_0")).remarks;
     };
     using testing::IsEmpty;
-    const auto turned = testing::Contains(HasSubstr("texture coordinates lie u to the right, v down and were turned"));
+    const auto turned = testing::Contains(HasSubstr("texture coordinates lie u to the right, v up and were turned"));
     write_image(150, 180);
     geometry::write_atomically(name(".lm2"), "# damaged\n");
     (void)preprocess();
