@@ -11,6 +11,7 @@
 
 #include "cli/command.h"
 #include "geometry/file.h"
+#include "geometry/json_values.h"
 #include "modeling/facs_catalogue.h"
 
 namespace mimik::cli {
@@ -92,8 +93,8 @@ int lint(const Request& request, const std::string& text, const std::string& nam
         for (const auto& finding : findings)
             list.push_back(
                 {{"severity", finding.error ? "error" : "warning"}, {"line", finding.line}, {"message", finding.what}});
-        std::cout << nlohmann::json{{"schema", 1}, {"file", name}, {"errors", errors}, {"findings", list}}.dump(1)
-                  << '\n';
+        std::cout << geometry::json_text(
+            nlohmann::json{{"schema", 1}, {"file", name}, {"errors", errors}, {"findings", list}});
     } else {
         for (const auto& finding : findings)
             std::cout << fmt::format("{}:{}: {}: {}\n", name, finding.line, finding.error ? "error" : "warning",
@@ -124,9 +125,8 @@ int run(const Request& request) {
     auto emotions = nlohmann::json::array();
     for (const auto& emotion : catalogue.emotions())
         emotions.push_back({{"name", emotion.name}, {"units", emotion.action_units}});
-    std::cout
-        << nlohmann::json{{"schema", 1}, {"catalogue", name}, {"action_units", units}, {"emotions", emotions}}.dump(1)
-        << '\n';
+    std::cout << geometry::json_text(
+        nlohmann::json{{"schema", 1}, {"catalogue", name}, {"action_units", units}, {"emotions", emotions}});
     return exit_done;
 }
 

@@ -12,6 +12,7 @@
 #include "database/hidden_subjects.h"
 #include "evaluation/surface_distance.h"
 #include "geometry/errors.h"
+#include "geometry/json_values.h"
 #include "geometry/mesh_io.h"
 #include "geometry/points_csv.h"
 #include "geometry/text.h"
@@ -88,7 +89,7 @@ void run(const Request& request) {
                                            {"test_to_reference", json_of(distance.test_to_reference.summary)}};
         document["reference_to_test"] =
             distance.reference_to_test ? json_of(distance.reference_to_test->summary) : nlohmann::ordered_json(nullptr);
-        std::cout << document.dump(2) << '\n';
+        std::cout << geometry::json_text(document);
         return;
     }
     std::cout << fmt::format("{:<18} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8}\n", "mm", "n", "mean", "rms",

@@ -10,6 +10,7 @@
 #include "evaluation/experiment.h"
 #include "evaluation/score_table.h"
 #include "geometry/file.h"
+#include "geometry/json_values.h"
 
 namespace mimik::cli {
 namespace {
@@ -40,13 +41,11 @@ int run(Arguments& arguments) {
         const auto estimate = evaluation::estimate_experiment(workspace, options);
         const double seconds = estimate.core_seconds / working_threads();
         if (arguments.common.json)
-            std::cout << nlohmann::json{{"schema", 1},
-                                        {"dry_run", true},
-                                        {"transfers", estimate.transfers},
-                                        {"seconds", seconds},
-                                        {"megabytes", 1.0}}
-                             .dump(1)
-                      << '\n';
+            std::cout << geometry::json_text(nlohmann::json{{"schema", 1},
+                                                            {"dry_run", true},
+                                                            {"transfers", estimate.transfers},
+                                                            {"seconds", seconds},
+                                                            {"megabytes", 1.0}});
         else
             std::cout << fmt::format("{} transfers, about {:.0f} s and less than 1 MB of tables\n", estimate.transfers,
                                      seconds);

@@ -12,6 +12,7 @@
 #include "cli/command.h"
 #include "figures/figure_description.h"
 #include "geometry/errors.h"
+#include "geometry/json_values.h"
 #include "geometry/text.h"
 
 namespace mimik::cli {
@@ -84,13 +85,11 @@ void draw(const figures::FigureDescription& description, const std::string& outp
     const auto image = figures::render(figure);
     geometry::write_png(output, image);
     if (common.json)
-        std::cout << nlohmann::ordered_json{{"output", output},
-                                            {"width_px", image.width},
-                                            {"height_px", image.height},
-                                            {"panels", figure.panels.size()},
-                                            {"drawn_with", figures::drawing_route()}}
-                         .dump(2)
-                  << '\n';
+        std::cout << geometry::json_text(nlohmann::ordered_json{{"output", output},
+                                                                {"width_px", image.width},
+                                                                {"height_px", image.height},
+                                                                {"panels", figure.panels.size()},
+                                                                {"drawn_with", figures::drawing_route()}});
     else if (!common.quiet)
         std::cout << fmt::format("{}: {} x {} pixels, {} panels\n", output, image.width, image.height,
                                  figure.panels.size());

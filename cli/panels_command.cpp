@@ -13,6 +13,7 @@
 #include "cli/subject_names.h"
 #include "evaluation/comparison_panels.h"
 #include "geometry/errors.h"
+#include "geometry/json_values.h"
 
 namespace mimik::cli {
 namespace {
@@ -107,11 +108,12 @@ int say_plan(const Arguments& arguments, const std::vector<Planned>& planned) {
     }
     const double seconds = panels * seconds_per_panel, megabytes = panels * megabytes_per_panel;
     if (arguments.common.json)
-        std::cout
-            << nlohmann::json{{"schema", 1},        {"dry_run", true},        {"figures", pictures},
-                              {"seconds", seconds}, {"megabytes", megabytes}, {"failures", nlohmann::json::array()}}
-                   .dump(1)
-            << '\n';
+        std::cout << geometry::json_text(nlohmann::json{{"schema", 1},
+                                                        {"dry_run", true},
+                                                        {"figures", pictures},
+                                                        {"seconds", seconds},
+                                                        {"megabytes", megabytes},
+                                                        {"failures", nlohmann::json::array()}});
     else
         std::cout << fmt::format("{} pictures of {:.0f} panels: about {:.0f} s, {:.0f} MB in {}\n", planned.size(),
                                  panels, std::max(1.0, seconds), std::max(1.0, megabytes), arguments.output);
@@ -167,9 +169,8 @@ int run(Arguments& arguments) {
         progress.advance(one.name);
     }
     if (arguments.common.json)
-        std::cout
-            << nlohmann::json{{"schema", 1}, {"dry_run", false}, {"figures", figures}, {"failures", failures}}.dump(1)
-            << '\n';
+        std::cout << geometry::json_text(
+            nlohmann::json{{"schema", 1}, {"dry_run", false}, {"figures", figures}, {"failures", failures}});
     for (const auto& failure : failures) std::cerr << failure << '\n';
     return failures.empty() ? exit_done : exit_done_with_failures;
 }

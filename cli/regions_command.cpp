@@ -11,6 +11,7 @@
 #include "cli/regions_file.h"
 #include "geometry/errors.h"
 #include "geometry/file.h"
+#include "geometry/json_values.h"
 #include "modeling/average_fingerprint.h"
 #include "modeling/region_labels.h"
 #include "preprocessing/workspace.h"
@@ -41,7 +42,7 @@ int run(const Arguments& arguments) {
     for (const auto& label : labels.label)
         if (!label.empty()) ++count[label];
     if (arguments.common.json) {
-        std::cout << nlohmann::json{{"schema", 1}, {"file", file.string()}, {"vertices", count}}.dump(1) << '\n';
+        std::cout << geometry::json_text(nlohmann::json{{"schema", 1}, {"file", file.string()}, {"vertices", count}});
     } else {
         for (const auto& [name, vertices] : count) std::cout << fmt::format("{:<14} {:>6} vertices\n", name, vertices);
         std::cout << fmt::format("{}\n", file.string());

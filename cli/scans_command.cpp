@@ -15,6 +15,7 @@
 #include "cli/command.h"
 #include "database/catalogue.h"
 #include "geometry/errors.h"
+#include "geometry/json_values.h"
 #include "geometry/text.h"
 
 namespace mimik::cli {
@@ -111,7 +112,7 @@ void print_json(const ScanDatabase& database, const std::vector<const ScanEntry*
                                 {"scans", nlohmann::ordered_json::array()}});
         subjects.back()["scans"].push_back(json_of(entry, result.summaries[i]));
     }
-    std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    std::cout << geometry::json_text(json);
 }
 
 /// Columns as wide as their widest cell; the first is left-aligned, and the last.

@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/method_options.h"
 #include "database/hidden_subjects.h"
+#include "geometry/json_values.h"
 #include "geometry/warp.h"
 
 namespace mimik::cli {
@@ -29,15 +30,13 @@ int run_warp(const WarpArguments& arguments) {
     options.check_texture = [](const std::filesystem::path& image) { database::refuse_hidden_file(image); };
     const auto report = geometry::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, options);
     if (arguments.common.json) {
-        std::cout << nlohmann::json{{"schema", 1},
-                                    {"output", arguments.output.string()},
-                                    {"landmarks", report.landmarks},
-                                    {"points", report.points},
-                                    {"largest_landmark_residual", report.largest_landmark_residual},
-                                    {"largest_displacement", report.largest_displacement},
-                                    {"bending_energy", report.bending_energy}}
-                         .dump(2)
-                  << '\n';
+        std::cout << geometry::json_text(nlohmann::json{{"schema", 1},
+                                                        {"output", arguments.output.string()},
+                                                        {"landmarks", report.landmarks},
+                                                        {"points", report.points},
+                                                        {"largest_landmark_residual", report.largest_landmark_residual},
+                                                        {"largest_displacement", report.largest_displacement},
+                                                        {"bending_energy", report.bending_energy}});
     } else if (!arguments.common.quiet) {
         std::cout << fmt::format("{}: {} points moved by up to {:.3f} through {} landmarks (met within {:.2g})\n",
                                  arguments.output.string(), report.points, report.largest_displacement,

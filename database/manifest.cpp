@@ -39,6 +39,9 @@ std::string subject_name(const geometry::CsvReader& rows, const std::string& val
                                   geometry::in_quotes(value)));
         name += plain ? c : '-';
     }
+    if (!geometry::is_utf8(name))
+        rows.fail(
+            fmt::format("subject {} is not written in UTF-8; save the table as UTF-8", geometry::in_quotes(value)));
     if (name.empty() || name.size() > 100 || name.front() == '.')
         rows.fail(
             fmt::format("subject {} is no name; give 1 to 100 letters, digits or '-'", geometry::in_quotes(value)));
@@ -92,6 +95,9 @@ Manifest parse_manifest(std::string_view text, const fs::path& file) {
         ScanEntry entry;
         const auto id = parse_expression(rows.field(expression));
         if (!id) rows.fail("expression is empty; give N, AU12, 12L, HAPPY or the like");
+        if (id->code.size() > 100)
+            rows.fail(fmt::format("expression {} becomes part of file names; give at most 100 letters",
+                                  geometry::in_quotes(rows.field(expression))));
         entry.id = *id;
         entry.id.subject = subject_name(rows, rows.field(subject));
         if (entry.id.subject != rows.field(subject))

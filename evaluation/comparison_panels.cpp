@@ -160,7 +160,7 @@ public:
                                {"legend", true},
                                {"view", request_.view},
                                {"panels", panels_}};
-        geometry::write_atomically(file(description_file), document.dump(1) + "\n");
+        geometry::write_atomically(file(description_file), geometry::json_text(document));
         return file(description_file);
     }
     [[nodiscard]] std::size_t panels() const { return panels_.size(); }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluation/reference_band.h"
+#include "geometry/json_values.h"
 #include "geometry/text.h"
 
 namespace mimik::evaluation {
@@ -181,22 +182,20 @@ std::string to_json(const ExperimentReport& report) {
                          {"low", band.low},
                          {"high", band.high},
                          {"inside", band.inside()}});
-    return nlohmann::json{
-               {"schema", 1},
-               {"subjects", report.subjects},
-               {"expressions", report.expressions},
-               {"zones", report.zones},
-               {"alignment", report.alignment},
-               {"truth", report.truth ? nlohmann::json{{"seed", report.truth->seed},
-                                                       {"face_model", report.truth->face_model},
-                                                       {"variances", report.truth->variances}}
-                                      : nlohmann::json()},
-               {"reference_bands", bands},
-               {"fit", known_bands.empty() ? nlohmann::json() : nlohmann::json(fit_to_be_scored_on(known_bands))},
-               {"rows", rows},
-               {"failures", report.failures}}
-               .dump(1) +
-           "\n";
+    return geometry::json_text(nlohmann::json{
+        {"schema", 1},
+        {"subjects", report.subjects},
+        {"expressions", report.expressions},
+        {"zones", report.zones},
+        {"alignment", report.alignment},
+        {"truth", report.truth ? nlohmann::json{{"seed", report.truth->seed},
+                                                {"face_model", report.truth->face_model},
+                                                {"variances", report.truth->variances}}
+                               : nlohmann::json()},
+        {"reference_bands", bands},
+        {"fit", known_bands.empty() ? nlohmann::json() : nlohmann::json(fit_to_be_scored_on(known_bands))},
+        {"rows", rows},
+        {"failures", report.failures}});
 }
 
 }  // namespace mimik::evaluation

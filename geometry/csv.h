@@ -13,8 +13,10 @@ namespace mimik::geometry {
 /// around a field are dropped, blank lines and lines that start with '#' are skipped. A field never spans lines.
 class CsvReader {
 public:
-    /// Reads the header. @throws InputError if there is none, or a column name appears twice.
+    /// Reads the header. `text` must outlive the reader. @throws InputError if there is none, or a column name appears
+    /// twice.
     CsvReader(std::string_view text, std::string file_name);
+    CsvReader(std::string&& text, std::string file_name) = delete;
 
     [[nodiscard]] const std::vector<std::string>& header() const { return header_; }
     /// Place of a column, its name compared without regard to case.

@@ -152,6 +152,10 @@ std::string json_text(const json& document) {
     return document.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
+std::string json_text(const nlohmann::ordered_json& document) {
+    return document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 void check_schema(const json& document) {
     if (!document.is_object()) throw InputError(fmt::format("is {}, not a JSON object", shown(document)));
     const auto found = document.find("schema");

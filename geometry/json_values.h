@@ -83,6 +83,7 @@ void read_list(const nlohmann::json& object, const char* key, const Take& take) 
 /// As we write it: one value a line; bytes that are no UTF-8 (file names may hold any) become the replacement character
 /// instead of an exception at the end of a long run.
 [[nodiscard]] std::string json_text(const nlohmann::json& document);
+[[nodiscard]] std::string json_text(const nlohmann::ordered_json& document);
 
 /// @throws InputError unless `document` is an object with schema 1.
 void check_schema(const nlohmann::json& document);

@@ -128,7 +128,7 @@ private:
             {"scale_bar_mm", 50},
             {"panels", panels}};
         auto description = parts() / "figure.json";
-        geometry::write_atomically(description, document.dump(1) + "\n");
+        geometry::write_atomically(description, geometry::json_text(document));
         return description;
     }
 

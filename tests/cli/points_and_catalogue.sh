@@ -59,6 +59,10 @@ grep -q '^f 1/1 2/2 3/3 4/4' low_moved.obj && [ "$(grep -c '^vt ' low_moved.obj)
 awk '$1 == "v" { d = $2 - 45; n += (d < 1e-9 && d > -1e-9) } END { exit n != 2 }' low_moved.obj || fail "corners of the moved square"
 claim "a warped mesh keeps its faces and texture coordinates"
 
+"$mimik" warp --from box.csv --to moved.csv low.obj -o $'caf\xe9.obj' --json >warp.json || fail "a name that is no UTF-8"
+grep -q '"points": 4' warp.json && iconv -f UTF-8 -t UTF-8 warp.json >copy.json || fail "JSON of a name that is no UTF-8"
+claim "--json is UTF-8 whatever the bytes of a file's name"
+
 "$mimik" distance low.obj high.obj --json >planes.json
 for side in test_to_reference reference_to_test; do
   expect_json planes.json $side n 4

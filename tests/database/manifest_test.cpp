@@ -49,6 +49,9 @@ TEST(Manifest, names_that_would_break_file_names_are_changed_or_refused) {
     EXPECT_THAT(manifest.remarks,
                 ElementsAre(HasSubstr("subject 'Jane_D' is called 'Jane-D'"), HasSubstr("expression 'grin' is none")));
     EXPECT_THAT(manifest_error("subject,expression,scan\n../x,N,1.ply\n"), HasSubstr("subject '../x'"));
+    EXPECT_THAT(manifest_error("subject,expression,scan\nJos\xe9,N,1.ply\n"), HasSubstr("not written in UTF-8"));
+    EXPECT_THAT(manifest_error("subject,expression,scan\na,E_" + std::string(101, 'x') + ",1.ply\n"),
+                HasSubstr("give at most 100 letters"));
 }
 
 TEST(Manifest, expressions_in_other_letters_are_different_expressions) {
