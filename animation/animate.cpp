@@ -211,17 +211,27 @@ double lip_parting_mm(const ExpressionModel& model) {
 bool lips_closed(const preprocessing::Face& neutral) {
     const auto* upper = neutral.landmarks.find("upper_lip_inner");
     const auto* lower = neutral.landmarks.find("lower_lip_inner");
-    if (!upper || !lower) return false;
-    // The grid is regular in x and y, so that any two neighbours in a column tell the height of a cell.
+    const auto* left = neutral.landmarks.find("mouth_corner_left");
+    const auto* right = neutral.landmarks.find("mouth_corner_right");
+    if (!upper || !lower || !left || !right) return false;
     const auto& grid = neutral.grid;
-    for (int row = 0; row + 1 < grid.rows; ++row)
-        for (int col = 0; col < grid.cols; ++col) {
-            const auto a = grid.index(row, col), b = grid.index(row + 1, col);
-            if (!grid.inside(a) || !grid.inside(b)) continue;
-            const double cell_mm = std::abs(grid.vertices_mm[b].y() - grid.vertices_mm[a].y());
-            return (upper->position_mm - lower->position_mm).norm() <= 2 * cell_mm;
+    const double middle_x = (left->position_mm.x() + right->position_mm.x()) / 2;
+    const double quarter_mm = std::abs(left->position_mm.x() - right->position_mm.x()) / 4;
+    const auto [low, high] = std::minmax({upper->position_mm.y(), lower->position_mm.y()});
+    const double cell_mm = grid.vertices_mm[grid.index(1, 0)].y() - grid.vertices_mm[0].y();
+    int columns = 0, open = 0;
+    for (int col = 0; col < grid.cols; ++col) {
+        if (std::abs(grid.vertices_mm[grid.index(0, col)].x() - middle_x) > quarter_mm) continue;
+        bool gap = false;
+        for (int row = 0; row < grid.rows; ++row) {
+            const auto v = grid.index(row, col);
+            const double y = grid.vertices_mm[v].y();
+            gap = gap || (y > low - cell_mm && y < high + cell_mm && !grid.measured(v));
         }
-    return false;
+        ++columns;
+        open += gap ? 1 : 0;
+    }
+    return 2 * open < columns;
 }
 
 namespace {

@@ -94,9 +94,9 @@ struct FieldExtent {
 /// less that of those on the lower; negative where it presses them together, 0 without landmarks of the lips.
 [[nodiscard]] double lip_parting_mm(const modeling::ExpressionModel& model);
 
-/// Whether the inner lips of a neutral face lie within two cells of its grid: no row of vertices lies between them
-/// then, so the lips are one piece of surface, which can be stretched but not opened. False where a landmark is
-/// missing.
+/// Whether the lips of a neutral face are one piece of surface, which can be stretched but not opened: in more than
+/// half of the columns of the mouth's middle half all vertices between the inner lips, a cell to spare, were measured.
+/// False where a landmark is missing.
 [[nodiscard]] bool lips_closed(const preprocessing::Face& neutral);
 
 struct AnimatedFace {

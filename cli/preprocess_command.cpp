@@ -58,9 +58,9 @@ void print_remarks(const preprocessing::PreprocessReport& report, const std::vec
     for (const auto& [remark, of] : scans)
         std::cerr << fmt::format("note: {}{}: {}\n", of.front(),
                                  of.size() > 1 ? fmt::format(" and {} more", of.size() - 1) : "", remark);
-    // Closed lips have that, most scans in a database: no reason to look at any of them.
-    if (const auto count = report.merged_landmarks.size(); count > 0)
-        std::cerr << fmt::format("{} scan{} two landmarks on one grid vertex (closed lips): splines take the first\n",
+    // Most scans of a database: no reason to look at any of them.
+    if (const auto count = report.closed_lips.size(); count > 0)
+        std::cerr << fmt::format("{} scan{} closed lips, both inner marks on one grid vertex: splines take the first\n",
                                  count, count == 1 ? " has" : "s have");
 }
 
@@ -143,7 +143,7 @@ int run(Arguments& arguments) {
         for (auto& remark : listed(report.remarks)) remarks.push_back(std::move(remark));
         nlohmann::json document = {{"schema", 1},
                                    {"remarks", remarks},
-                                   {"merged_landmarks", listed(report.merged_landmarks)},
+                                   {"closed_lips", report.closed_lips},
                                    {"preprocessed", report.preprocessed},
                                    {"up_to_date", report.up_to_date},
                                    {"failures", failures},

@@ -335,52 +335,64 @@ void for_each_edge(const QuadGrid& grid, const Visit& visit) {
         }
 }
 
-/// The vertices of pits: patches of drawn surface that drops set apart on all sides, behind what surrounds them, as the
-/// inside of the head is where a mesh has openings for eyes and mouth. The largest patch is the face and no pit.
+/// The vertices of pits: small patches of drawn surface that deep drops set apart on all sides, behind what surrounds
+/// them, as the inside of the head is where a mesh has openings for eyes and mouth.
 std::vector<std::uint8_t> in_pits(const QuadGrid& grid) {
-    // Patches: vertices joined by edges that are no drops (union-find; the root is the lowest vertex).
+    // Deeper than eyeballs lie behind lids and teeth behind lips; the inside of a head is ten times as far.
+    constexpr double deep_mm = 10.0;
+    constexpr std::uint32_t large = 10;  // a patch of a tenth of the largest is a face in a hood, not an eye in a face
+    const auto joined = [&](std::uint32_t a, std::uint32_t b) {
+        const Point &p = grid.vertices_mm[a], &q = grid.vertices_mm[b];
+        return grid.inside(a) && grid.inside(b) && !(is_drop(p, q) && std::abs(p.z() - q.z()) > deep_mm);
+    };
+    // Patches: vertices joined by edges that are no such drops (union-find; the root is the lowest vertex).
     std::vector<std::uint32_t> parent(grid.size());
     std::iota(parent.begin(), parent.end(), 0U);
     const auto root = [&](std::uint32_t v) {
         while (parent[v] != v) v = parent[v] = parent[parent[v]];
         return v;
     };
-    const auto joined = [&](std::uint32_t a, std::uint32_t b) {
-        return grid.inside(a) && grid.inside(b) && !is_drop(grid.vertices_mm[a], grid.vertices_mm[b]);
-    };
     for_each_edge(grid, [&](std::uint32_t a, std::uint32_t b) {
         if (!joined(a, b)) return;
         const auto one = root(a), other = root(b);
         parent[std::max(one, other)] = std::min(one, other);
     });
-    std::vector<std::uint32_t> vertices(grid.size(), 0);
+    std::vector<std::uint32_t> size(grid.size(), 0);
     for (std::uint32_t v = 0; v < grid.size(); ++v)
-        if (grid.inside(v)) ++vertices[root(v)];
-    const auto face = static_cast<std::uint32_t>(std::max_element(vertices.begin(), vertices.end()) - vertices.begin());
+        if (grid.inside(v)) ++size[root(v)];
+    const std::uint32_t largest = *std::max_element(size.begin(), size.end());
 
-    // A pit may have a deeper one in it: what is behind a patch speaks against it only while it is no pit itself.
+    // No pit is what is large, what lies at the border or beside nothing, and what lies in front of what is no pit: a
+    // pit may have a deeper one in it.
     std::vector<std::uint8_t> pit(grid.size(), 1);
-    pit[face] = 0;
-    for (bool changed = true; changed;) {
-        changed = false;
-        const auto spare = [&](std::uint32_t patch) {
-            changed = changed || pit[patch] != 0;
-            pit[patch] = 0;
-        };
-        for (std::uint32_t v = 0; v < grid.size(); ++v) {
-            const auto row = v / static_cast<std::uint32_t>(grid.cols), col = v % static_cast<std::uint32_t>(grid.cols);
-            if (row == 0 || col == 0 || row + 1 == static_cast<std::uint32_t>(grid.rows) ||
-                col + 1 == static_cast<std::uint32_t>(grid.cols))
-                spare(root(v));
-        }
-        for_each_edge(grid, [&](std::uint32_t a, std::uint32_t b) {
-            const auto one = root(a), other = root(b);
-            if (one == other) return;
-            if (!grid.inside(a)) return spare(other);
-            if (!grid.inside(b)) return spare(one);
-            const bool a_nearer = grid.vertices_mm[a].z() > grid.vertices_mm[b].z();
-            if (const auto behind = a_nearer ? other : one; pit[behind] == 0) spare(a_nearer ? one : other);
-        });
+    std::vector<std::uint32_t> spared;
+    const auto spare = [&](std::uint32_t patch) {
+        if (pit[patch] == 0) return;
+        pit[patch] = 0;
+        spared.push_back(patch);
+    };
+    for (std::uint32_t v = 0; v < grid.size(); ++v)
+        if (large * std::uint64_t{size[v]} >= largest) spare(v);
+    for (int row = 0; row < grid.rows; ++row)
+        for (const int col : {0, grid.cols - 1}) spare(root(grid.index(row, col)));
+    for (int col = 0; col < grid.cols; ++col)
+        for (const int row : {0, grid.rows - 1}) spare(root(grid.index(row, col)));
+    std::vector<std::array<std::uint32_t, 2>> behind_and_nearer;
+    for_each_edge(grid, [&](std::uint32_t a, std::uint32_t b) {
+        const auto one = root(a), other = root(b);
+        if (one == other) return;
+        if (!grid.inside(a)) return spare(other);
+        if (!grid.inside(b)) return spare(one);
+        const bool a_nearer = grid.vertices_mm[a].z() > grid.vertices_mm[b].z();
+        behind_and_nearer.push_back({a_nearer ? other : one, a_nearer ? one : other});
+    });
+    std::sort(behind_and_nearer.begin(), behind_and_nearer.end());
+    while (!spared.empty()) {
+        const auto patch = spared.back();
+        spared.pop_back();
+        for (auto pair = std::lower_bound(behind_and_nearer.begin(), behind_and_nearer.end(), std::array{patch, 0U});
+             pair != behind_and_nearer.end() && (*pair)[0] == patch; ++pair)
+            spare((*pair)[1]);
     }
     std::vector<std::uint8_t> result(grid.size(), 0);
     for (std::uint32_t v = 0; v < grid.size(); ++v) result[v] = grid.inside(v) && pit[root(v)] != 0 ? 1 : 0;
@@ -587,7 +599,9 @@ QuadGrid grid_scan(const RangeScan& scan, const GriddingOptions& options, Griddi
             if (pit[v]) raster.open(v);
         made.pit_vertices = static_cast<std::size_t>(std::count(pit.begin(), pit.end(), std::uint8_t{1}));
         cut_at_drops(grid);
-        fill_between(raster, rim, bound(triangle_spacing(samples, mesh.triangles)));
+        made.spacing_mm = triangle_spacing(samples, mesh.triangles);
+        made.max_edge_mm = 0.0;  // what no face covers was not measured, however short the way across
+        fill_between(raster, rim, made.max_edge_mm);
     } else {
         auto merged = gather(scan, valid, made.points);
         const auto all = geometry::delaunay(planar(merged.points_mm));

@@ -12,6 +12,7 @@ struct GriddingOptions {
     int rows = 150;  ///< the thesis's grid (Sec. 5.4)
     int cols = 150;
     /// A triangle with an edge longer than this in x-y, mm, spans a hole or a concavity: vertices in it are `bridged`.
+    /// Not for meshes: there all that no face covers is.
     /// Unset: `max_edge_spacings` times the scan's median point spacing, so that it suits every scanner.
     std::optional<double> max_edge_mm;
     /// 3 spacings bridge one lost point of a lattice (edges up to 2 spacings) and a steep or noisy stretch, but not a
@@ -42,7 +43,7 @@ struct GriddingReport {
     std::size_t pit_vertices = 0;      ///< vertices that show the inside of a head through an opening (mesh only)
     double seen_through = 0.0;         ///< share of the close triangles that join front and back (delaunay only)
     double spacing_mm = 0.0;           ///< median distance of neighbours in x-y
-    double max_edge_mm = 0.0;          ///< the bound that was used
+    double max_edge_mm = 0.0;          ///< the bound that was used; 0 for a mesh
 };
 
 /// The thesis's resampling (Sec. 5.4): `linspace` over the bounding box of the valid points, `meshgrid`, and z linearly
@@ -57,10 +58,10 @@ struct GriddingReport {
 /// one nearest to the camera (highest z) counts.
 /// `mesh` draws the faces that a scan without a lattice has, whatever their winding, and the one nearest to the camera
 /// counts: the back of a head, ears and inner lips stay hidden, and where the surface drops out of sight the farther
-/// vertex is `bridged`. What is seen through an opening - behind, and set apart by drops on all sides, as the inside of
-/// the head where there are no eyeballs - is taken for a hole. Rims are filled as above.
-/// A cloud has neither: where points lie behind one another, close triangles that join front and back are `bridged`,
-/// and `seen_through` counts them.
+/// vertex is `bridged`. What is seen through an opening - a small patch, behind, and set apart by drops of more than 10
+/// mm on all sides, as the inside of the head where there are no eyeballs - is taken for a hole. Rims are filled as
+/// above, but all of it is `bridged`. A cloud has neither: where points lie behind one another, close triangles that
+/// join front and back are `bridged`, and `seen_through` counts them.
 /// @throws InputError for bad options or a scan with fewer than three valid points; NumericalError if all lie on a
 /// line.
 [[nodiscard]] geometry::QuadGrid grid_scan(const geometry::RangeScan& scan, const GriddingOptions& options = {},

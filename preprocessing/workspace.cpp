@@ -257,7 +257,8 @@ private:
         bool fresh = false;                   ///< its neutral was gridded in this run
         std::set<const ScanEntry*> reported;  ///< neutrals that failed in the first pass
         std::vector<ScanFailure> failures;    ///< written by the one thread that has this subject
-        std::vector<ScanRemark> remarks, merged_landmarks;
+        std::vector<ScanRemark> remarks;
+        std::vector<std::string> closed_lips;
         std::vector<ScanId> finished;
         std::size_t preprocessed = 0, up_to_date = 0;
     };
@@ -268,8 +269,12 @@ private:
     static void remark(Subject& subject, const Face& face) {
         for (const auto& text : face.remarks) subject.remarks.push_back({face.id.name(), text});
         const ControlPairs pairs(face.snapped_landmarks, face.snapped_landmarks);
-        if (!pairs.merged().empty())
-            subject.merged_landmarks.push_back({face.id.name(), fmt::format("{}", fmt::join(pairs.merged(), ", "))});
+        for (const auto& pair : pairs.merged())
+            if (pair == "'lower_lip_inner' lies on 'upper_lip_inner'" ||
+                pair == "'upper_lip_inner' lies on 'lower_lip_inner'")
+                subject.closed_lips.push_back(face.id.name());
+            else
+                subject.remarks.push_back({face.id.name(), "on one grid vertex: " + pair});
     }
     void done(const ScanEntry& entry) const {
         if (progress_) progress_(entry.id.name());
@@ -500,8 +505,7 @@ private:
             report.up_to_date += subject.up_to_date;
             report.failures.insert(report.failures.end(), subject.failures.begin(), subject.failures.end());
             report.remarks.insert(report.remarks.end(), subject.remarks.begin(), subject.remarks.end());
-            report.merged_landmarks.insert(report.merged_landmarks.end(), subject.merged_landmarks.begin(),
-                                           subject.merged_landmarks.end());
+            report.closed_lips.insert(report.closed_lips.end(), subject.closed_lips.begin(), subject.closed_lips.end());
             ids.insert(ids.end(), subject.finished.begin(), subject.finished.end());
             if (!subject.neutral) report.left_out.push_back(subject.scans.front()->id.subject);
         }

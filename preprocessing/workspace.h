@@ -54,12 +54,12 @@ struct ScanRemark {
 };
 
 struct PreprocessReport {
-    std::size_t preprocessed = 0;              ///< written in this run
-    std::size_t up_to_date = 0;                ///< found finished from an earlier run
-    std::vector<ScanFailure> failures;         ///< by subject
-    std::vector<ScanRemark> remarks;           ///< of the faces written in this run
-    std::vector<ScanRemark> merged_landmarks;  ///< of the same faces, one entry a scan: landmarks on one grid vertex
-    std::vector<std::string> left_out;         ///< subjects without a usable neutral
+    std::size_t preprocessed = 0;          ///< written in this run
+    std::size_t up_to_date = 0;            ///< found finished from an earlier run
+    std::vector<ScanFailure> failures;     ///< by subject
+    std::vector<ScanRemark> remarks;       ///< of the faces written in this run
+    std::vector<std::string> closed_lips;  ///< scans among them whose inner lips lie on one grid vertex
+    std::vector<std::string> left_out;     ///< subjects without a usable neutral
 };
 
 /// What workspace.json says.
@@ -109,8 +109,8 @@ private:
     AverageFace average_;
 };
 
-/// @throws InputError if `root` is empty, a file, a link that goes round in circles, the database's folder or anywhere in
-/// it, or a folder of its scans: a database is never written into.
+/// @throws InputError if `root` is empty, a file, a link that goes round in circles, the database's folder or anywhere
+/// in it, or a folder of its scans: a database is never written into.
 void check_workspace_place(const database::ScanDatabase& database, const std::filesystem::path& root);
 
 /// Preprocesses a whole database, in parallel over subjects, one scan in memory per thread. What an earlier run

@@ -147,12 +147,17 @@ TEST_F(Animate, beyond_magnitude_one_a_remark_says_so) {
 }
 
 /// A face whose inner lips are marked so far apart in y.
-preprocessing::Face with_lips_apart(preprocessing::Face face, double apart_mm) {
-    auto marks = std::vector(face.landmarks.all().begin(), face.landmarks.all().end());
-    const Point upper = face.landmarks.position_mm("upper_lip_inner");
-    for (auto& mark : marks)
-        if (mark.name == "lower_lip_inner") mark.position_mm = upper - Vector(0, apart_mm, 0);
-    face.landmarks = geometry::Landmarks(std::move(marks));
+/// Nothing was measured between the lips in so much of the mouth's width.
+preprocessing::Face with_gap(preprocessing::Face face, double share) {
+    const Point left = face.landmarks.position_mm("mouth_corner_left"),
+                right = face.landmarks.position_mm("mouth_corner_right"),
+                seam = face.landmarks.position_mm("upper_lip_inner");
+    for (std::size_t v = 0; v < face.grid.size(); ++v) {
+        const auto& p = face.grid.vertices_mm[v];
+        if (std::abs(p.x() - (left.x() + right.x()) / 2) < share / 2 * std::abs(left.x() - right.x()) &&
+            std::abs(p.y() - seam.y()) < 1)
+            face.grid.origin[v] = geometry::VertexOrigin::bridged;
+    }
     return face;
 }
 
@@ -179,12 +184,10 @@ TEST_F(Animate, who_opens_a_closed_mouth_is_told_that_it_stays_one_piece) {
                 remark.starts_with("AU27 pulls the lips apart, but those of " + neutral.id.name() + " are closed");
         return remarks;
     };
-    const auto& grid = target_->neutral.grid;
-    const auto middle = grid.index(grid.rows / 2, grid.cols / 2), above = grid.index(grid.rows / 2 + 1, grid.cols / 2);
-    const double cell_mm = grid.vertices_mm[above].y() - grid.vertices_mm[middle].y();
-    const auto closed = with_lips_apart(target_->neutral, 1.9 * cell_mm);
-    const auto open = with_lips_apart(target_->neutral, 2.1 * cell_mm);
+    const auto &closed = target_->neutral, open = with_gap(closed, 0.6);
     EXPECT_TRUE(lips_closed(closed));
+    EXPECT_TRUE(lips_closed(with_gap(closed, 0.2)));  // 0.2 of the 0.5 that are looked at: less than half
+    EXPECT_FALSE(lips_closed(with_gap(closed, 0.3)));
     EXPECT_FALSE(lips_closed(open));
     EXPECT_EQ(told(opening, 1.0, closed), 1U);
     EXPECT_EQ(told(opening, 0.1, closed), 0U);  // a millimetre

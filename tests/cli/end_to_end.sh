@@ -20,7 +20,7 @@ claim "so are the scores"
 cmp face1.glb face2.glb
 claim "so is an animated face"
 
-[ "$(grep -c ' two landmarks on one grid vertex' remarks.txt)" -eq 1 ] && ! grep -q '^note: ' remarks.txt || { cat remarks.txt; fail "remarks"; }
+[ "$(grep -c ' closed lips, both inner marks on one grid vertex' remarks.txt)" -eq 1 ] && ! grep -q '^note: ' remarks.txt || { cat remarks.txt; fail "remarks"; }
 claim "closed lips are one line for all scans"
 
 "$mimik" preprocess db1 -o work1 --json >again.json

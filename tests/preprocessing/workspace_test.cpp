@@ -240,23 +240,28 @@ TEST_F(WorkspaceTest, remarks_of_every_face_written_in_a_run_come_once_also_of_n
     EXPECT_THAT(remarked(report), both);
 }
 
-TEST_F(WorkspaceTest, landmarks_on_one_grid_vertex_are_counted_and_are_no_remark) {
-    // Closed lips: the inner ones in one place.
-    std::vector<geometry::Landmark> closed;
+TEST_F(WorkspaceTest, closed_lips_are_counted_and_other_landmarks_on_one_grid_vertex_are_remarked) {
     const auto marks = geometry::transformed(test::AnalyticFace{1.0, 6}.landmarks(), test::analytic_pose(3));
-    for (const auto& mark : marks.all())
-        closed.push_back(
-            {mark.name, marks.position_mm(mark.name == "lower_lip_inner" ? "upper_lip_inner" : mark.name), ""});
-    database::write_lm3(database_ / "bs001" / "bs001_LFAU_12_0.lm3",
-                        database::to_bosphorus_labels(geometry::Landmarks(closed)));
+    const auto put = [&](const std::string& name, const std::string& on) {
+        std::vector<geometry::Landmark> together;
+        for (const auto& mark : marks.all())
+            together.push_back({mark.name, marks.position_mm(mark.name == name ? on : mark.name), ""});
+        database::write_lm3(database_ / "bs001" / "bs001_LFAU_12_0.lm3",
+                            database::to_bosphorus_labels(geometry::Landmarks(together)));
+    };
+    put("lower_lip_inner", "upper_lip_inner");
     auto options = quick();
     options.gridding.rows = 100;  // 1.5 mm between rows: the inner lips of the others, 2 mm apart, keep their vertices
     const auto report = preprocess(options);
     EXPECT_TRUE(report.remarks.empty());
-    ASSERT_EQ(report.merged_landmarks.size(), 1U);
-    EXPECT_EQ(report.merged_landmarks[0].scan, "bs001_LFAU_12_0");
-    EXPECT_EQ(report.merged_landmarks[0].remark, "'lower_lip_inner' lies on 'upper_lip_inner'");
-    EXPECT_TRUE(preprocess(options).merged_landmarks.empty());  // of the faces written, as remarks are
+    EXPECT_THAT(report.closed_lips, ElementsAre("bs001_LFAU_12_0"));
+    EXPECT_TRUE(preprocess(options).closed_lips.empty());  // of the faces written, as remarks are
+    put("brow_middle_left", "brow_inner_left");
+    const auto brows = preprocess(options);
+    EXPECT_TRUE(brows.closed_lips.empty());
+    ASSERT_EQ(brows.remarks.size(), 1U);
+    EXPECT_EQ(brows.remarks[0].scan, "bs001_LFAU_12_0");
+    EXPECT_THAT(brows.remarks[0].remark, AllOf(HasSubstr("brow_middle_left"), HasSubstr("brow_inner_left")));
 }
 
 TEST_F(WorkspaceTest, the_plan_is_what_the_run_then_does_and_writes_nothing) {
