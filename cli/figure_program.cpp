@@ -134,7 +134,7 @@ int run_figure(int argc, char** argv) {
         app.add_option("--framing", framing, "own: each panel centred on its face; common: all on one point")
             ->capture_default_str(),
         app.add_option("--height-mm", page.height_mm, "Height of a panel in mm; without: every face whole"),
-        app.add_option("--scale-bar-mm", page.scale_bar_mm, "Length of a scale bar in the first panel; 0 = none"),
+        app.add_option("--scale-bar-mm", page.scale_bar_mm, "Length of a scale bar below the first panel; 0 = none"),
         app.add_flag("--legend", page.legend, "Name the markers beneath the panels"),
         app.add_option("--supersampling", page.supersampling, "1 to 4: smoother edges for print, slower")
             ->capture_default_str()};

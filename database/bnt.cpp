@@ -138,11 +138,11 @@ Bnt decode_bnt(std::span<const std::uint8_t> bytes, const std::string& name) {
     return bnt;
 }
 
-// Reads straight into the five columns: no second copy of the file in memory.
 bool is_bnt(const std::filesystem::path& file) {
     return geometry::equal_ignoring_case(file.extension().string(), ".bnt");
 }
 
+// Reads straight into the five columns: no second copy of the file in memory.
 Bnt read_bnt(const std::filesystem::path& file) {
     const std::string name = file.string();
     const OpenFile open(file);

@@ -96,8 +96,9 @@ Manifest parse_manifest(std::string_view text, const fs::path& file) {
         const auto id = parse_expression(rows.field(expression));
         if (!id) rows.fail("expression is empty; give N, AU12, 12L, HAPPY or the like");
         if (id->code.size() > 100)
-            rows.fail(fmt::format("expression {} becomes part of file names; give at most 100 letters",
-                                  geometry::in_quotes(rows.field(expression))));
+            rows.fail(
+                fmt::format("expression {} becomes part of file names; give at most 100 bytes of letters and digits",
+                            geometry::in_quotes(rows.field(expression))));
         entry.id = *id;
         entry.id.subject = subject_name(rows, rows.field(subject));
         if (entry.id.subject != rows.field(subject))

@@ -351,11 +351,26 @@ void draw_legend(Canvas& canvas, const Figure& figure, const Layout& page) {
     }
 }
 
-/// The bar at x and its label beside it, in a strip whose top is at y.
-void draw_scale_bar(Canvas& canvas, const Figure& figure, int x, int y, double mm_per_px) {
-    const int font = bar_font_px(figure), length = static_cast<int>(std::lround(figure.scale_bar_mm / mm_per_px));
-    canvas.fill(x, y + font * 6 / 10, length, std::max(2, font / 6), ink);
-    canvas.text(x + length + font / 2.0, y + font, fmt::format("{:g} mm", figure.scale_bar_mm), font, 0, ink);
+/// The bar at x and its label beside it, or in its middle where the page ends before that, in a strip whose top is at
+/// y.
+void draw_scale_bar(Canvas& canvas, const Figure& figure, int x, int y, double mm_per_px, int end) {
+    const int font = bar_font_px(figure), top = y + font * 6 / 10, thick = std::max(2, font / 6);
+    const double room_mm = (end - x) * mm_per_px;
+    if (figure.scale_bar_mm > room_mm)
+        throw InputError(fmt::format("scale_bar_mm is {:g}, but the figure is {:.0f} mm wide; give a shorter bar",
+                                     figure.scale_bar_mm, std::floor(room_mm)));
+    const int length = static_cast<int>(std::lround(figure.scale_bar_mm / mm_per_px));
+    const auto label = fmt::format("{:g} mm", figure.scale_bar_mm);
+    const int width = text_width(label, font), gap = font / 2;
+    if (x + length + gap + width <= end) {
+        canvas.fill(x, top, length, thick, ink);
+        canvas.text(x + length + gap, y + font, label, font, 0, ink);
+    } else {
+        const int side = std::max(0, (length - width) / 2 - gap);
+        canvas.fill(x, top, side, thick, ink);
+        canvas.text(x + (length - width) / 2.0, y + font, label, font, 0, ink);
+        canvas.fill(x + length - side, top, side, thick, ink);
+    }
 }
 
 }  // namespace
@@ -426,7 +441,8 @@ geometry::Image render(const Figure& figure) {
                 draw_bar(canvas, *page.bars[p], x + figure.panel_width_px + figure.font_size_px / 3, y,
                          figure.panel_height_px, bar_font_px(figure));
             if (p == 0 && figure.scale_bar_mm > 0)
-                draw_scale_bar(canvas, figure, x + page.margin, y + figure.panel_height_px, cameras[0].mm_per_px);
+                draw_scale_bar(canvas, figure, x + page.margin, y + figure.panel_height_px, cameras[0].mm_per_px,
+                               page.width - page.margin);
             int baseline = y + figure.panel_height_px + (row == 0 ? page.scale_strip : 0) + figure.font_size_px * 5 / 4;
             for (const auto& line : page.captions[p]) {
                 canvas.text(x + figure.panel_width_px / 2.0, baseline, line, figure.font_size_px, 0.5, ink);

@@ -9,6 +9,9 @@
 #include <utility>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 #include <fmt/format.h>
 
 #include "geometry/errors.h"
@@ -78,16 +81,18 @@ std::uint32_t along_hilbert(std::uint32_t x, std::uint32_t y, int bits) {
     return distance;
 }
 
-/// An order of insertion in which the next point is near the last one, in rounds that double: no input makes the whole
-/// quadratic, as a plain sweep can (Amenta, Choi and Rote 2003, "Incremental constructions con BRIO").
+/// The order of insertion: the next point is near the last one, in rounds that double (Amenta, Choi and Rote 2003,
+/// "Incremental constructions con BRIO"). Along Hilbert's curve through a raster that spans what most of the points
+/// span; where it leaves many in one cell - clusters, strays - CGAL's spatial sort, which goes by medians, takes twice
+/// as long and is not deceived.
 std::vector<std::uint32_t> insertion_order(std::span<const Planar> points) {
+    constexpr std::uint32_t crowd = 64;
     const auto count = static_cast<std::uint32_t>(points.size());
-    // The raster spans what most of the points span: a stray point far away must not put all others into one cell.
-    Planar low, span;
+    Planar low, span;  // halved: no difference of finite numbers overflows then
     for (int axis = 0; axis < 2; ++axis) {
         std::vector<double> sample;
         const std::uint32_t stride = count / 1000 + 1;
-        for (std::uint32_t i = 0; i < count; i += stride) sample.push_back(points[i][axis]);
+        for (std::uint32_t i = 0; i < count; i += stride) sample.push_back(points[i][axis] / 2);
         std::sort(sample.begin(), sample.end());
         const std::size_t rest = sample.size() / 50;
         low[axis] = sample[rest];
@@ -97,19 +102,32 @@ std::vector<std::uint32_t> insertion_order(std::span<const Planar> points) {
     const double cells = static_cast<double>(1U << static_cast<unsigned>(bits));
     constexpr int rounds = 10;
     const auto cell = [&](const Planar& p, int axis) {
-        const double where = span[axis] > 0 ? (p[axis] - low[axis]) / span[axis] * cells : 0.0;
-        return static_cast<std::uint32_t>(std::clamp(where, 0.0, cells - 1));
+        const double where = (p[axis] / 2 - low[axis]) / span[axis] * cells;
+        return where > 0 ? static_cast<std::uint32_t>(std::min(where, cells - 1)) : 0U;  // not a number: no span
     };
     std::vector<std::uint64_t> keyed(count);
+    std::vector<std::uint32_t> in_cell(std::size_t{1} << static_cast<unsigned>(2 * bits), 0);
+    std::uint32_t most = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         // Multiples of the golden ratio spread evenly: half of them start with bit 1, a quarter with 01, and so on.
         const std::uint32_t spread = (i + 1) * 0x9E3779B9U;
         const auto round = static_cast<std::uint64_t>(rounds - std::min(rounds, std::countl_zero(spread)));
         const std::uint64_t place = along_hilbert(cell(points[i], 0), cell(points[i], 1), bits);
+        most = std::max(most, ++in_cell[place]);
         keyed[i] = round << 54U | place << 32U | i;
     }
-    std::sort(keyed.begin(), keyed.end());
     std::vector<std::uint32_t> order(count);
+    if (most > crowd) {
+        using Placed = std::pair<Exact::Point_2, std::uint32_t>;
+        std::vector<Placed> placed;
+        placed.reserve(count);
+        for (std::uint32_t i = 0; i < count; ++i) placed.emplace_back(exact(points[i]), i);
+        using Traits = CGAL::Spatial_sort_traits_adapter_2<Exact, CGAL::First_of_pair_property_map<Placed>>;
+        CGAL::spatial_sort(placed.begin(), placed.end(), Traits());
+        std::transform(placed.begin(), placed.end(), order.begin(), [](const Placed& one) { return one.second; });
+        return order;
+    }
+    std::sort(keyed.begin(), keyed.end());
     for (std::uint32_t i = 0; i < count; ++i) order[i] = static_cast<std::uint32_t>(keyed[i]);
     return order;
 }
@@ -160,7 +178,7 @@ private:
     }
 
     /// From the last triangle over the edges that have p on their far side; ends in any Delaunay triangulation.
-    [[nodiscard]] std::uint32_t locate(const Planar& p) const {
+    [[nodiscard]] std::uint32_t locate(const Planar& p) {
         const auto behind = [&](std::uint32_t edge) {
             return predicates_.orientation(points_[vertex_[edge]], points_[vertex_[next(edge)]], p) < 0;
         };
@@ -169,9 +187,13 @@ private:
         for (;;) {
             const std::uint32_t crossed = twin_[edge];
             if (outside(crossed / 3)) return crossed / 3;
-            edge = next(crossed);
+            // Which side is tried first changes: always the same one would walk all round a vertex of thin triangles.
+            turns_ = turns_ * 1664525U + 1013904223U;
+            const std::uint32_t one = next(crossed), other = next(one);
+            const bool turn = (turns_ >> 31U) != 0;
+            edge = turn ? one : other;
             if (behind(edge)) continue;
-            edge = next(edge);
+            edge = turn ? other : one;
             if (!behind(edge)) return crossed / 3;
         }
     }
@@ -237,7 +259,7 @@ private:
     std::span<const Planar> points_;
     const Predicates& predicates_;
     std::vector<std::uint32_t> vertex_, twin_, unsettled_;
-    std::uint32_t last_ = 0;
+    std::uint32_t last_ = 0, turns_ = 0;
 };
 
 /// The first point, the next in another place and the next off their line, counter-clockwise; none without three such.

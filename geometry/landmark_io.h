@@ -19,7 +19,8 @@ enum class LandmarkFormat { csv, pp, fcsv, mrk_json, lm3 };
 inline constexpr std::size_t most_landmarks = 10000;
 
 /// Reads on to the line "22 landmarks:" of an .lm3 or .lm2 and returns its number. Before it stand comments ('#'), free
-/// text (from '*' to the next empty line) or whatever else is no such line. @throws InputError naming line and value.
+/// text (from '*' to the next empty line) or whatever else is no such line; the first line of this form counts, in free
+/// text, too, since the empty line after it may be lost. @throws InputError naming line and value.
 [[nodiscard]] std::size_t read_landmark_count(LineReader& lines);
 
 /// Landmarks as a file has them: labels untouched (name == original_label), file's own frame.

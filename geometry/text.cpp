@@ -127,8 +127,11 @@ std::string in_quotes(std::string_view word) {
     for (auto& c : shown)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
     // A cut inside a UTF-8 character would make the message itself invalid text.
-    if (word.size() > longest)
-        while (!shown.empty() && (static_cast<unsigned char>(shown.back()) & 0x80U) != 0) shown.pop_back();
+    if (word.size() > longest) {
+        auto whole = shown;
+        for (int lost = 0; lost < 3 && !is_utf8(whole); ++lost) whole.pop_back();
+        if (is_utf8(whole)) shown = whole;
+    }
     return fmt::format("'{}{}'", shown, word.size() > longest ? "..." : "");
 }
 

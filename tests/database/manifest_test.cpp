@@ -51,7 +51,12 @@ TEST(Manifest, names_that_would_break_file_names_are_changed_or_refused) {
     EXPECT_THAT(manifest_error("subject,expression,scan\n../x,N,1.ply\n"), HasSubstr("subject '../x'"));
     EXPECT_THAT(manifest_error("subject,expression,scan\nJos\xe9,N,1.ply\n"), HasSubstr("not written in UTF-8"));
     EXPECT_THAT(manifest_error("subject,expression,scan\na,E_" + std::string(101, 'x') + ",1.ply\n"),
-                HasSubstr("give at most 100 letters"));
+                HasSubstr("give at most 100 bytes"));
+    std::string smiles;
+    for (int i = 0; i < 34; ++i) smiles += "\u5fae";
+    // 40 bytes are shown: 13 letters of three and the cut one left out.
+    EXPECT_THAT(manifest_error("subject,expression,scan\na," + smiles + ",1.ply\n"),
+                HasSubstr("expression '" + smiles.substr(0, 39) + "...'"));
 }
 
 TEST(Manifest, expressions_in_other_letters_are_different_expressions) {

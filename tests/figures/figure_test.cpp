@@ -276,6 +276,24 @@ TEST(Render, a_scale_bar_and_its_label_touch_no_face_however_wide) {
             ASSERT_EQ(pixel(with, x, y < foot ? y : y + added), pixel(without, x, y)) << x << ", " << y;
 }
 
+TEST(Render, a_scale_bar_and_its_label_stay_on_the_page_and_a_longer_bar_is_refused) {
+    SKIP_WITHOUT_RENDERER();
+    Figure figure = figure_of({.mesh = square(190)});
+    double longest_mm = 0;
+    for (const double length_mm : {20.0, 150.0, 180.0}) {
+        figure.scale_bar_mm = length_mm;
+        const Image image = render(figure);
+        const int margin = margin_px(figure);
+        for (int y = margin + 200; y < image.height; ++y)
+            for (int x = image.width - margin; x < image.width; ++x)
+                ASSERT_EQ(pixel(image, x, y), pixel(image, 0, 0)) << length_mm << ": " << x << ", " << y;
+        longest_mm = length_mm;
+    }
+    figure.scale_bar_mm = 2 * longest_mm;
+    EXPECT_THAT([&] { (void)render(figure); },
+                ThrowsMessage<InputError>(AllOf(HasSubstr("scale_bar_mm is 360"), HasSubstr("give a shorter bar"))));
+}
+
 TEST(Render, a_legend_adds_a_line_with_the_colours_of_the_sets) {
     SKIP_WITHOUT_RENDERER();
     Panel panel{.mesh = square(100)};
