@@ -184,8 +184,9 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
         ->delimiter(',');
     command->add_option("--rows", options.gridding.rows, "Rows of the grid")->capture_default_str();
     command->add_option("--cols", options.gridding.cols, "Columns of the grid")->capture_default_str();
-    command->add_option("--max-edge-mm", options.gridding.max_edge_mm,
-                        "Longer triangle edges bridge a hole (default: 3 spacings)");
+    command->add_option(
+        "--max-edge-mm", options.gridding.max_edge_mm,
+        "Longer triangle edges bridge a hole (default: 3 spacings; of a mesh all that no face covers is bridged)");
     command->add_option("--spike-mm", options.cleaning.spike_mm, "Farther than this from its neighbours is a spike")
         ->capture_default_str();
     command

@@ -158,23 +158,25 @@ public:
         const std::uint32_t t = locate(points_[p]);
         if (!outside(t))
             for (std::uint32_t k = 0; k < 3; ++k)
-                if (points_[vertex_[3 * t + k]] == points_[p]) return vertex_[3 * t + k];
+                if (points_[vertex_[corner(t, k)]] == points_[p]) return vertex_[corner(t, k)];
         split(t, p);
         while (!unsettled_.empty()) {
             const std::uint32_t next = unsettled_.back();
             unsettled_.pop_back();
-            if (conflicts(twin_[3 * next] / 3, points_[p])) flip(next);
+            if (conflicts(twin_[corner(next, 0)] / 3, points_[p])) flip(next);
         }
         // Round the new point to a triangle that is none of those outside.
-        for (last_ = t; outside(last_);) last_ = twin_[3 * last_ + 1] / 3;
+        for (last_ = t; outside(last_);) last_ = twin_[corner(last_, 1)] / 3;
         return p;
     }
 
     [[nodiscard]] const std::vector<std::uint32_t>& corners() const { return vertex_; }
 
 private:
+    static std::uint32_t corner(std::uint32_t t, std::uint32_t k) { return 3 * t + k; }
+
     [[nodiscard]] bool outside(std::uint32_t t) const {
-        return vertex_[3 * t] == beyond || vertex_[3 * t + 1] == beyond || vertex_[3 * t + 2] == beyond;
+        return vertex_[corner(t, 0)] == beyond || vertex_[corner(t, 1)] == beyond || vertex_[corner(t, 2)] == beyond;
     }
 
     /// From the last triangle over the edges that have p on their far side; ends in any Delaunay triangulation.
@@ -182,7 +184,7 @@ private:
         const auto behind = [&](std::uint32_t edge) {
             return predicates_.orientation(points_[vertex_[edge]], points_[vertex_[next(edge)]], p) < 0;
         };
-        std::uint32_t edge = 3 * last_;
+        std::uint32_t edge = corner(last_, 0);
         if (!behind(edge)) edge = twin_[edge];
         for (;;) {
             const std::uint32_t crossed = twin_[edge];
@@ -200,36 +202,37 @@ private:
 
     void split(std::uint32_t t, std::uint32_t p) {
         const auto u = static_cast<std::uint32_t>(vertex_.size() / 3), v = u + 1;
-        const std::array<std::uint32_t, 3> corner = {vertex_[3 * t], vertex_[3 * t + 1], vertex_[3 * t + 2]};
-        const std::array<std::uint32_t, 3> across = {twin_[3 * t], twin_[3 * t + 1], twin_[3 * t + 2]};
+        const std::array<std::uint32_t, 3> vertices = {vertex_[corner(t, 0)], vertex_[corner(t, 1)],
+                                                       vertex_[corner(t, 2)]};
+        const std::array<std::uint32_t, 3> across = {twin_[corner(t, 0)], twin_[corner(t, 1)], twin_[corner(t, 2)]};
         vertex_.resize(vertex_.size() + 6);
         twin_.resize(twin_.size() + 6);
         const std::array<std::uint32_t, 3> part = {t, u, v};
         for (std::uint32_t k = 0; k < 3; ++k) {
-            set(part[k], {corner[k], corner[(k + 1) % 3], p});
-            join(3 * part[k], across[k]);
-            join(3 * part[k] + 1, 3 * part[(k + 1) % 3] + 2);
+            set(part[k], {vertices[k], vertices[(k + 1) % 3], p});
+            join(corner(part[k], 0), across[k]);
+            join(corner(part[k], 1), corner(part[(k + 1) % 3], 2));
             unsettled_.push_back(part[k]);
         }
     }
 
     /// The triangle's first edge lies across from its last corner, p; after the flip the two end in p again.
     void flip(std::uint32_t t) {
-        const std::uint32_t far = twin_[3 * t], u = far / 3, p = vertex_[3 * t + 2];
-        const std::uint32_t a = vertex_[3 * t], b = vertex_[3 * t + 1], d = vertex_[next(next(far))];
-        const std::uint32_t ad = twin_[next(far)], db = twin_[next(next(far))], bp = twin_[3 * t + 1];
+        const std::uint32_t far = twin_[corner(t, 0)], u = far / 3, p = vertex_[corner(t, 2)];
+        const std::uint32_t a = vertex_[corner(t, 0)], b = vertex_[corner(t, 1)], d = vertex_[next(next(far))];
+        const std::uint32_t ad = twin_[next(far)], db = twin_[next(next(far))], bp = twin_[corner(t, 1)];
         set(t, {a, d, p});
         set(u, {d, b, p});
-        join(3 * t, ad);
-        join(3 * u, db);
-        join(3 * u + 1, bp);
-        join(3 * t + 1, 3 * u + 2);
+        join(corner(t, 0), ad);
+        join(corner(u, 0), db);
+        join(corner(u, 1), bp);
+        join(corner(t, 1), corner(u, 2));
         unsettled_.push_back(u);
         unsettled_.push_back(t);
     }
 
     [[nodiscard]] bool conflicts(std::uint32_t t, const Planar& p) const {
-        const std::array<std::uint32_t, 3> v = {vertex_[3 * t], vertex_[3 * t + 1], vertex_[3 * t + 2]};
+        const std::array<std::uint32_t, 3> v = {vertex_[corner(t, 0)], vertex_[corner(t, 1)], vertex_[corner(t, 2)]};
         for (std::uint32_t k = 0; k < 3; ++k) {
             if (v[k] != beyond) continue;
             const Planar &a = points_[v[(k + 1) % 3]], &b = points_[v[(k + 2) % 3]];
@@ -245,7 +248,7 @@ private:
         return (a[axis] < p[axis] && p[axis] < b[axis]) || (b[axis] < p[axis] && p[axis] < a[axis]);
     }
 
-    static std::uint32_t next(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+    static std::uint32_t next(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
 
     void set(std::uint32_t t, const std::array<std::uint32_t, 3>& corners) {
         std::copy(corners.begin(), corners.end(), vertex_.begin() + 3 * static_cast<std::ptrdiff_t>(t));

@@ -44,7 +44,7 @@ fs::path face_stem(const fs::path& root, const ScanId& id) { return root / "face
 fs::path average_stem(const fs::path& root) { return root / "average" / "average_face"; }
 
 /// Part of every fingerprint: raise it when the steps give other numbers for the same scan and options.
-constexpr int steps_version = 5;
+constexpr int steps_version = 6;
 
 std::string describe(const PreprocessOptions& o) {
     return fmt::format("steps {} clean {} {} {} grid {} {} edge {} {} lattice {} icp {} {} {} {} {} {} {}",

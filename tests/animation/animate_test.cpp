@@ -146,7 +146,6 @@ TEST_F(Animate, beyond_magnitude_one_a_remark_says_so) {
     EXPECT_THAT(animate(target, std::span(&strong, 1)).remarks, testing::Contains(HasSubstr("exaggerates")));
 }
 
-/// A face whose inner lips are marked so far apart in y.
 /// Nothing was measured between the lips in so much of the mouth's width.
 preprocessing::Face with_gap(preprocessing::Face face, double share) {
     const Point left = face.landmarks.position_mm("mouth_corner_left"),

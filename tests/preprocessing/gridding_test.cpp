@@ -363,18 +363,24 @@ TEST(Gridding, eyeballs_close_behind_the_lids_and_a_face_in_a_hood_are_no_pits) 
     EXPECT_EQ(pits(100, 30, 100), 0U);    // an eighth of the ring is too large for an eye
 }
 
-TEST(Gridding, a_slope_that_falls_by_a_drop_from_every_vertex_to_the_next_is_no_pit_either_way) {
-    for (const double slope : {8.0, -8.0}) {
-        RangeScan scan;
-        scan.points_mm = {{0, 0, 0}, {100, 0, 100 * slope}, {100, 100, 200 * slope}, {0, 100, 100 * slope}};
-        scan.faces.add(std::array<std::uint32_t, 4>{0, 1, 2, 3});
-        GriddingOptions options;
-        options.rows = options.cols = 40;  // 2.6 mm: drops of 20 mm
-        GriddingReport report;
-        (void)grid_scan(scan, options, &report);
-        EXPECT_EQ(report.pit_vertices, 0U);
-        EXPECT_EQ(report.outside, 0U);
+TEST(Gridding, what_stands_in_front_of_a_face_is_no_pit_nor_what_stands_in_front_of_that) {
+    RangeScan scan;  // squares before a sheet, a staircase to either side
+    const auto square = [&](double x, double y, double z, double half) {
+        const auto first = static_cast<std::uint32_t>(scan.points_mm.size());
+        for (const auto& [dx, dy] : {std::pair{-half, -half}, {half, -half}, {half, half}, {-half, half}})
+            scan.points_mm.emplace_back(x + dx, y + dy, z);
+        scan.faces.add(std::array<std::uint32_t, 4>{first, first + 1, first + 2, first + 3});
+    };
+    square(0, 0, 0, 70);
+    for (const double side : {-1.0, 1.0}) {
+        square(side * 30, side * 30, 40, 8);
+        square(side * 30, side * 30, 80, 5);
+        square(side * 30, side * 30, 120, 2.5);
     }
+    GriddingReport report;
+    const auto grid = grid_scan(scan, {}, &report);
+    EXPECT_EQ(report.pit_vertices, 0U);
+    EXPECT_EQ(grid.vertices_mm[grid.index(106, 106)].z(), 120);  // 30 mm: (30 + 70) / 140 of 149 rows
 }
 
 TEST(Gridding, a_closed_mesh_with_a_slit_has_nothing_to_fill) {
