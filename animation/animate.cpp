@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "animation/combine.h"
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "preprocessing/control_pairs.h"
 
 namespace mimik::animation {

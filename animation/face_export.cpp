@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/glb.h"
-#include "geometry/image.h"
-#include "geometry/mesh_io.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/glb.h"
+#include "io/image.h"
+#include "io/mesh_io.h"
+#include "base/text.h"
 
 namespace mimik::animation {
 
@@ -76,27 +76,27 @@ std::vector<std::string> write_glb_face(const std::filesystem::path& file, const
     }
     std::vector<std::uint32_t> kept, source;
     const auto neutral = mesh_of(animated, target, options, Positions::neutral, &kept);
-    auto mesh = geometry::glb_mesh(neutral, &source);
+    auto mesh = io::glb_mesh(neutral, &source);
     mesh.name = target.face().id.subject;
-    if (!texture_file.empty()) mesh.texture_png = geometry::read_as_png(texture_file);
+    if (!texture_file.empty()) mesh.texture_png = io::read_as_png(texture_file);
     const Eigen::Matrix3d turn = options.frame == OutputFrame::average
                                      ? Eigen::Matrix3d(target.average_from_scan().linear())
                                      : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     for (const auto& shape : shapes) {
-        geometry::MorphTarget morph{shape.name.name, {}, shape.name.magnitude, shape.name.arkit_shape};
+        io::MorphTarget morph{shape.name.name, {}, shape.name.magnitude, shape.name.arkit_shape};
         for (const auto v : source) morph.displacement_mm.push_back(turn * (*shape.displacement_mm)[kept[v]]);
         mesh.morph_targets.push_back(std::move(morph));
     }
-    geometry::GlbScene scene;
+    io::GlbScene scene;
     scene.meshes.push_back(std::move(mesh));
-    geometry::write_glb(file, scene);
+    io::write_glb(file, scene);
     return remarks;
 }
 
 /// Attributes as a table, a row per vertex; PLY names their components likewise.
 void write_vertex_values(const std::filesystem::path& file, const Mesh& mesh) {
     constexpr std::array axes = {"_x", "_y", "_z"};
-    geometry::write_atomically(file, [&](std::ostream& out) {
+    base::write_atomically(file, [&](std::ostream& out) {
         out << "vertex";
         for (const auto& attribute : mesh.attributes)
             for (int c = 0; c < attribute.components; ++c)
@@ -117,7 +117,7 @@ void write_vertex_values(const std::filesystem::path& file, const Mesh& mesh) {
 }  // namespace
 
 std::filesystem::path vertex_values_file(const std::filesystem::path& file) {
-    if (geometry::lower_case(file.extension().string()) != ".obj") return {};
+    if (base::lower_case(file.extension().string()) != ".obj") return {};
     return file.parent_path() / (file.stem().string() + "_vertices.csv");
 }
 
@@ -128,17 +128,17 @@ Mesh to_mesh(const AnimatedFace& animated, const TargetFace& target, const Expor
 std::vector<std::string> write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated,
                                              const TargetFace& target, std::span<const NamedMagnitude> names,
                                              const std::filesystem::path& texture_file, const ExportOptions& options) {
-    const auto extension = geometry::lower_case(file.extension().string());
+    const auto extension = base::lower_case(file.extension().string());
     if (extension == ".glb") return write_glb_face(file, animated, target, names, texture_file, options);
     if (extension != ".ply" && extension != ".obj" && extension != ".vtp")
         throw InputError(fmt::format("{}: an animated face is written as .ply, .obj, .vtp or .glb, not '{}'",
                                      file.string(), extension));
-    geometry::MeshWriteOptions write_options;
+    io::MeshWriteOptions write_options;
     if (!texture_file.empty()) {
-        const auto bytes = geometry::read_as_png(texture_file);
+        const auto bytes = io::read_as_png(texture_file);
         // Not face.png: that may be somebody's picture of the face.
         const auto copy = file.parent_path() / (file.stem().string() + "_texture.png");
-        geometry::write_atomically(copy, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+        base::write_atomically(copy, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
         write_options.texture_file = copy.filename().string();
     }
     const auto mesh = to_mesh(animated, target, options);
@@ -148,7 +148,7 @@ std::vector<std::string> write_animated_face(const std::filesystem::path& file, 
         remarks.push_back(
             fmt::format("an OBJ holds no values per vertex: displacement and origin are in {}", values.string()));
     }
-    geometry::write_mesh(file, mesh, write_options);
+    io::write_mesh(file, mesh, write_options);
     return remarks;
 }
 

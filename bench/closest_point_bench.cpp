@@ -2,7 +2,7 @@
 
 #include "bench/bench_scan.h"
 #include "bench/peers/closest_point_peer.h"
-#include "geometry/parallel.h"
+#include "base/parallel.h"
 #include "geometry/surface_index.h"
 
 namespace {
@@ -19,24 +19,24 @@ const auto& test() {
 }
 
 void mimik_build(benchmark::State& state) {
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     for (auto _ : state)
         benchmark::DoNotOptimize(geometry::SurfaceIndex(reference().vertices_mm, reference().triangles));
 }
 void mimik_query(benchmark::State& state) {
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     const geometry::SurfaceIndex index(reference().vertices_mm, reference().triangles);
     for (auto _ : state) benchmark::DoNotOptimize(index.closest(test().vertices_mm));
 }
 void mimik_build_and_query(benchmark::State& state, int threads) {
-    geometry::set_thread_count(threads);
+    base::set_thread_count(threads);
     for (auto _ : state) {
         const geometry::SurfaceIndex index(reference().vertices_mm, reference().triangles);
         benchmark::DoNotOptimize(index.closest(test().vertices_mm));
     }
 }
 void mimik_both_directions(benchmark::State& state, int threads) {
-    geometry::set_thread_count(threads);
+    base::set_thread_count(threads);
     for (auto _ : state) {
         const geometry::SurfaceIndex one(reference().vertices_mm, reference().triangles);
         benchmark::DoNotOptimize(one.closest(test().vertices_mm));

@@ -61,7 +61,7 @@ BENCHMARK(mimik_figure_supersampled)->Unit(benchmark::kMillisecond)->UseRealTime
 
 void mimik_figure_to_png(benchmark::State& state) {
     const auto image = figures::render(one_panel(1));
-    for (auto _ : state) benchmark::DoNotOptimize(geometry::encode_png(image));
+    for (auto _ : state) benchmark::DoNotOptimize(io::encode_png(image));
 }
 BENCHMARK(mimik_figure_to_png)->Unit(benchmark::kMillisecond)->UseRealTime();
 

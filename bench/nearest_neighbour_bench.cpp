@@ -5,7 +5,7 @@
 
 #include "bench/bench_scan.h"
 #include "bench/peers/nearest_neighbour_peer.h"
-#include "geometry/parallel.h"
+#include "base/parallel.h"
 #include "geometry/point_index.h"
 
 namespace {
@@ -25,7 +25,7 @@ void mimik_neighbour_build(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(geometry::PointIndex(cloud()));
 }
 void mimik_neighbour_query(benchmark::State& state) {
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     const geometry::PointIndex index(cloud());
     for (auto _ : state) benchmark::DoNotOptimize(index.nearest(queries()));
 }
@@ -36,7 +36,7 @@ void peer_build(benchmark::State& state) {
 }
 template <auto make>
 void peer_query(benchmark::State& state) {
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     const auto peer = make(cloud());
     const auto theirs = peer->nearest(queries());
     const auto ours = geometry::PointIndex(cloud()).nearest(queries());

@@ -6,7 +6,7 @@
 
 #include "bench/bench_scan.h"
 #include "bench/peers/thin_plate_spline_peer.h"
-#include "geometry/parallel.h"
+#include "base/parallel.h"
 #include "geometry/thin_plate_spline.h"
 
 namespace {
@@ -53,7 +53,7 @@ void fit(benchmark::State& state, geometry::SplineKernel kernel) {
 }
 
 void evaluate(benchmark::State& state, geometry::SplineKernel kernel, int threads) {
-    geometry::set_thread_count(threads);
+    base::set_thread_count(threads);
     const auto controls = make_controls(static_cast<std::size_t>(state.range(0)));
     const auto spline = geometry::ThinPlateSpline::fit(controls.source_mm, controls.target_mm, {.kernel = kernel});
     std::vector<Point> moved(grid().size());
@@ -70,7 +70,7 @@ void vtk_fit(benchmark::State& state) {
 }
 
 void vtk_evaluate(benchmark::State& state) {
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     const auto controls = make_controls(static_cast<std::size_t>(state.range(0)));
     const auto peer = peers::make_vtk_peer(controls.source_mm, controls.target_mm);
     require_agreement(geometry::ThinPlateSpline::fit(controls.source_mm, controls.target_mm,

@@ -8,7 +8,7 @@
 #include "database/bnt.h"
 #include "database/bosphorus_landmarks.h"
 #include "evaluation/surface_distance.h"
-#include "geometry/parallel.h"
+#include "base/parallel.h"
 #include "modeling/control_points.h"
 #include "preprocessing/normalisation.h"
 #include "preprocessing/workspace.h"
@@ -151,7 +151,7 @@ void mimik_scan_clean_and_grid(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(preprocessing::preprocess_scan(loaded, {}));
 }
 void mimik_scan_align_and_normalise(benchmark::State& state) {
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     const auto& neutral = faces().neutral;
     const Face gridded = preprocessing::preprocess_scan(database::load(files().smiling), {});
     for (auto _ : state) {
@@ -164,15 +164,15 @@ void mimik_scan_write(benchmark::State& state) {
     for (auto _ : state) preprocessing::write_face(files().output(0), faces().smiling);
 }
 void mimik_scan_from_file_to_normalised_grid(benchmark::State& state) {
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     const auto& neutral = faces().neutral;
     for (auto _ : state) benchmark::DoNotOptimize(expressive_face(files().smiling, neutral));
 }
 void mimik_eight_scans_threads(benchmark::State& state) {
     const auto& neutral = faces().neutral;
-    geometry::set_thread_count(static_cast<int>(state.range(0)));
+    base::set_thread_count(static_cast<int>(state.range(0)));
     for (auto _ : state)
-        geometry::parallel_for(batch, 1, [&](std::size_t begin, std::size_t end) {
+        base::parallel_for(batch, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k)
                 preprocessing::write_face(files().output(k), expressive_face(files().smiling, neutral));
         });
@@ -180,12 +180,12 @@ void mimik_eight_scans_threads(benchmark::State& state) {
 
 void mimik_expression_measured_on_one_source(benchmark::State& state) {
     (void)faces();
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     for (auto _ : state) benchmark::DoNotOptimize(measured());
 }
 void mimik_target_made_ready(benchmark::State& state) {
     const auto& made = faces();
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     for (auto _ : state) {
         benchmark::DoNotOptimize(animation::TargetFace(made.target, modeling::Frame::similarity));
         benchmark::DoNotOptimize(RealScan(made.truth));
@@ -195,16 +195,16 @@ void mimik_transfer_and_evaluation_both_ways(benchmark::State& state) {
     const animation::TargetFace target(faces().target, modeling::Frame::similarity);
     const RealScan real(faces().truth);
     const auto model = measured();
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     for (auto _ : state) benchmark::DoNotOptimize(transfer(target, model, real));
 }
 void mimik_eight_transfers_threads(benchmark::State& state) {
     const animation::TargetFace target(faces().target, modeling::Frame::similarity);
     const RealScan real(faces().truth);
     const auto model = measured();
-    geometry::set_thread_count(static_cast<int>(state.range(0)));
+    base::set_thread_count(static_cast<int>(state.range(0)));
     for (auto _ : state)
-        geometry::parallel_for(batch, 1, [&](std::size_t begin, std::size_t end) {
+        base::parallel_for(batch, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k) benchmark::DoNotOptimize(transfer(target, model, real));
         });
 }

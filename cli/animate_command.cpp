@@ -14,8 +14,8 @@
 #include "cli/method_options.h"
 #include "cli/regions_file.h"
 #include "cli/subject_names.h"
-#include "geometry/errors.h"
-#include "geometry/json_values.h"
+#include "base/errors.h"
+#include "io/json_values.h"
 #include "modeling/region_labels.h"
 #include "modeling/source_expression.h"
 
@@ -159,7 +159,7 @@ int run(Arguments& arguments) {
                                    {"output", arguments.output}};
         if (const auto values = animation::vertex_values_file(arguments.output); !values.empty())
             document["vertex_values"] = values.string();
-        std::cout << geometry::json_text(document);
+        std::cout << io::json_text(document);
     } else {
         if (!arguments.common.quiet)
             for (const auto& remark : remarks) std::cerr << "note: " << remark << '\n';

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
+#include "base/file.h"
+#include "io/json_values.h"
 #include "modeling/facs_catalogue.h"
 
 namespace mimik::cli {
@@ -93,7 +93,7 @@ int lint(const Request& request, const std::string& text, const std::string& nam
         for (const auto& finding : findings)
             list.push_back(
                 {{"severity", finding.error ? "error" : "warning"}, {"line", finding.line}, {"message", finding.what}});
-        std::cout << geometry::json_text(
+        std::cout << io::json_text(
             nlohmann::json{{"schema", 1}, {"file", name}, {"errors", errors}, {"findings", list}});
     } else {
         for (const auto& finding : findings)
@@ -109,7 +109,7 @@ int run(const Request& request) {
     const bool own = !request.file.empty();
     const std::string name = own ? request.file : "built-in catalogue";
     const std::string text =
-        own ? geometry::read_text(request.file, 1 << 22) : std::string(modeling::builtin_catalogue_text());
+        own ? base::read_text(request.file, 1 << 22) : std::string(modeling::builtin_catalogue_text());
     if (request.text) {
         std::cout << text;
         return exit_done;
@@ -125,7 +125,7 @@ int run(const Request& request) {
     auto emotions = nlohmann::json::array();
     for (const auto& emotion : catalogue.emotions())
         emotions.push_back({{"name", emotion.name}, {"units", emotion.action_units}});
-    std::cout << geometry::json_text(
+    std::cout << io::json_text(
         nlohmann::json{{"schema", 1}, {"catalogue", name}, {"action_units", units}, {"emotions", emotions}});
     return exit_done;
 }

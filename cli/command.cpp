@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "geometry/errors.h"
-#include "geometry/output_folder.h"
-#include "geometry/parallel.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/output_folder.h"
+#include "base/parallel.h"
+#include "base/text.h"
 
 namespace mimik::cli {
 namespace {
@@ -24,7 +24,7 @@ double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock:
 
 int working_threads() {
     const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    return std::clamp(geometry::thread_count(), 1, cores);
+    return std::clamp(base::thread_count(), 1, cores);
 }
 
 void add_common_options(CLI::App& command, Common& common) {
@@ -32,7 +32,7 @@ void add_common_options(CLI::App& command, Common& common) {
     command.add_flag("--json", common.json, "Print the result as one JSON document");
     command.add_flag("--quiet", common.quiet, "No progress and no remarks");
     command.add_option("--threads", common.threads, "Threads to use; 0 = one per core")->check(CLI::Range(0, 1024));
-    command.parse_complete_callback([&common] { geometry::set_thread_count(common.threads); });
+    command.parse_complete_callback([&common] { base::set_thread_count(common.threads); });
 }
 
 void check_by_option(const OptionOfField& options, const std::function<void()>& check) {
@@ -47,7 +47,7 @@ void check_by_option(const OptionOfField& options, const std::function<void()>& 
 }
 
 void refuse_range_scan(const std::filesystem::path& file) {
-    if (geometry::equal_ignoring_case(file.extension().string(), ".bnt"))
+    if (base::equal_ignoring_case(file.extension().string(), ".bnt"))
         throw InputError(
             fmt::format("{}: is a range scan, not a mesh; 'mimik preprocess DB -o WORK' makes one of it: "
                         "WORK/faces/SUBJECT/{}.ply",
@@ -68,7 +68,7 @@ CLI::Option* add_output_folder(CLI::App& command, std::string& folder, const std
 }
 
 void check_output_folder(const std::filesystem::path& folder, bool dry_run) {
-    if (!dry_run) return geometry::check_takes_files(folder);
+    if (!dry_run) return base::check_takes_files(folder);
     // Only making it tells for sure: rights, full disks, links and names too long all come in.
     struct Missing {
         std::vector<std::filesystem::path> folders;  // the innermost first
@@ -80,7 +80,7 @@ void check_output_folder(const std::filesystem::path& folder, bool dry_run) {
     std::error_code ignored;
     for (auto place = folder; !place.empty() && !exists(symlink_status(place, ignored)); place = place.parent_path())
         missing.folders.push_back(place);
-    geometry::check_takes_files(folder);
+    base::check_takes_files(folder);
 }
 
 void add_seed_option(CLI::App& command, std::uint64_t& seed) {

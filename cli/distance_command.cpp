@@ -11,11 +11,11 @@
 #include "cli/command.h"
 #include "database/hidden_subjects.h"
 #include "evaluation/surface_distance.h"
-#include "geometry/errors.h"
-#include "geometry/json_values.h"
-#include "geometry/mesh_io.h"
-#include "geometry/points_csv.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "io/json_values.h"
+#include "io/mesh_io.h"
+#include "io/points_csv.h"
+#include "base/text.h"
 #include "geometry/vertex_attributes.h"
 
 namespace mimik::cli {
@@ -30,9 +30,9 @@ struct Request {
 };
 
 geometry::Mesh read_test(const std::filesystem::path& file) {
-    if (geometry::lower_case(file.extension().string()) != ".csv") return geometry::read_mesh(file);
+    if (base::lower_case(file.extension().string()) != ".csv") return io::read_mesh(file);
     geometry::Mesh cloud;
-    cloud.vertices_mm = geometry::read_points_csv(file).points;
+    cloud.vertices_mm = io::read_points_csv(file).points;
     return cloud;
 }
 
@@ -49,7 +49,7 @@ std::string line_of(const char* side, const DistanceSummary& s) {
 void write_distances(const std::filesystem::path& file, geometry::Mesh mesh, const VertexDistances& distances) {
     geometry::set_attribute(mesh, {"distance_mm", 1, distances.distance_mm});
     geometry::set_attribute(mesh, {"on_border", 1, {distances.on_border.begin(), distances.on_border.end()}});
-    geometry::write_mesh(file, mesh);
+    io::write_mesh(file, mesh);
 }
 
 /// Vertices that no polygon has: cells of a workspace's grid outside the face, or points beside a mesh.
@@ -61,7 +61,7 @@ std::ptrdiff_t vertices_without_face(const geometry::Mesh& mesh) {
 
 /// Found out before the work: the other formats would drop the distances in silence.
 void check_output(const std::filesystem::path& file) {
-    const auto extension = geometry::lower_case(file.extension().string());
+    const auto extension = base::lower_case(file.extension().string());
     if (!file.empty() && extension != ".vtp" && extension != ".ply")
         throw InputError(
             fmt::format("{}: extension '{}' holds no value per vertex; give .vtp or .ply", file.string(), extension));
@@ -74,7 +74,7 @@ void run(const Request& request) {
         database::refuse_hidden_file(file);
     }
     auto test = read_test(request.test);
-    const auto reference = geometry::read_mesh(request.reference);
+    const auto reference = io::read_mesh(request.reference);
     if (reference.faces.size() == 0)
         throw InputError(
             fmt::format("{}: the reference has {} vertices but no face; distances need a surface: give a mesh",
@@ -89,7 +89,7 @@ void run(const Request& request) {
                                            {"test_to_reference", json_of(distance.test_to_reference.summary)}};
         document["reference_to_test"] =
             distance.reference_to_test ? json_of(distance.reference_to_test->summary) : nlohmann::ordered_json(nullptr);
-        std::cout << geometry::json_text(document);
+        std::cout << io::json_text(document);
         return;
     }
     std::cout << fmt::format("{:<18} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8}\n", "mm", "n", "mean", "rms",

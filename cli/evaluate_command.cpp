@@ -9,8 +9,8 @@
 #include "cli/method_options.h"
 #include "evaluation/experiment.h"
 #include "evaluation/score_table.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
+#include "base/file.h"
+#include "io/json_values.h"
 
 namespace mimik::cli {
 namespace {
@@ -41,7 +41,7 @@ int run(Arguments& arguments) {
         const auto estimate = evaluation::estimate_experiment(workspace, options);
         const double seconds = estimate.core_seconds / working_threads();
         if (arguments.common.json)
-            std::cout << geometry::json_text(nlohmann::json{{"schema", 1},
+            std::cout << io::json_text(nlohmann::json{{"schema", 1},
                                                             {"dry_run", true},
                                                             {"transfers", estimate.transfers},
                                                             {"seconds", seconds},
@@ -61,9 +61,9 @@ int run(Arguments& arguments) {
     const auto markdown = evaluation::to_markdown(report), json = evaluation::to_json(report);
     std::cout << (arguments.common.json ? json : markdown) << std::flush;
     if (!arguments.output.empty()) {
-        geometry::write_atomically(folder / "scores.md", markdown);
-        geometry::write_atomically(folder / "scores.csv", evaluation::to_csv(report));
-        geometry::write_atomically(folder / "scores.json", json);
+        base::write_atomically(folder / "scores.md", markdown);
+        base::write_atomically(folder / "scores.csv", evaluation::to_csv(report));
+        base::write_atomically(folder / "scores.json", json);
     }
     if (!arguments.common.json && !arguments.common.quiet) std::cerr << fmt::format("{:.1f} s\n", report.seconds);
     return report.failures.empty() ? exit_done : exit_done_with_failures;

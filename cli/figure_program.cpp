@@ -11,9 +11,9 @@
 
 #include "cli/command.h"
 #include "figures/figure_description.h"
-#include "geometry/errors.h"
-#include "geometry/json_values.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "io/json_values.h"
+#include "base/text.h"
 
 namespace mimik::cli {
 namespace {
@@ -49,7 +49,7 @@ std::vector<PanelDescription> panels_of(const PerPanel& given) {
     for (std::size_t p = 0; p < count; ++p) {
         auto& panel = panels[p];
         if (given.meshes[p] != "-") panel.mesh = given.meshes[p];
-        panel.unit = geometry::parse_length_unit(given.unit);
+        panel.unit = io::parse_length_unit(given.unit);
         if (p < given.captions.size()) panel.caption = given.captions[p];
         panel.landmarks = value_for(given.landmarks, p, count, "--landmarks");
         panel.controls = value_for(given.controls, p, count, "--controls");
@@ -69,8 +69,8 @@ std::vector<PanelDescription> panels_of(const PerPanel& given) {
 void parse_size(const std::string& text, figures::Figure& page) {
     const auto cross = text.find('x');
     const std::string_view words = text;
-    const auto width = geometry::parse_integer(words.substr(0, cross)).value_or(0);
-    const auto height = cross == std::string::npos ? 0 : geometry::parse_integer(words.substr(cross + 1)).value_or(0);
+    const auto width = base::parse_integer(words.substr(0, cross)).value_or(0);
+    const auto height = cross == std::string::npos ? 0 : base::parse_integer(words.substr(cross + 1)).value_or(0);
     constexpr std::int64_t most = 100'000;  // Figure::check gives the true limits
     if (width < 1 || height < 1 || width > most || height > most)
         throw InputError(fmt::format("--size is '{}'; give WIDTHxHEIGHT in pixels, such as 400x480", text));
@@ -79,13 +79,13 @@ void parse_size(const std::string& text, figures::Figure& page) {
 }
 
 void draw(const figures::FigureDescription& description, const std::string& output, const Common& common) {
-    if (!geometry::equal_ignoring_case(std::filesystem::path(output).extension().string(), ".png"))
+    if (!base::equal_ignoring_case(std::filesystem::path(output).extension().string(), ".png"))
         throw InputError(fmt::format("--output is '{}'; figures are written as .png", output));
     const auto figure = figures::load_figure(description);
     const auto image = figures::render(figure);
-    geometry::write_png(output, image);
+    io::write_png(output, image);
     if (common.json)
-        std::cout << geometry::json_text(nlohmann::ordered_json{{"output", output},
+        std::cout << io::json_text(nlohmann::ordered_json{{"output", output},
                                                                 {"width_px", image.width},
                                                                 {"height_px", image.height},
                                                                 {"panels", figure.panels.size()},

@@ -9,7 +9,7 @@
 #include "cli/command.h"
 #include "cli/method_options.h"
 #include "cli/subject_names.h"
-#include "geometry/json_values.h"
+#include "io/json_values.h"
 #include "modeling/source_expression.h"
 
 namespace mimik::cli {
@@ -66,7 +66,7 @@ int run(Arguments& arguments) {
         }
     }
     if (arguments.common.json)
-        std::cout << geometry::json_text(nlohmann::json{{"schema", 1}, {"models", written}, {"failures", failures}});
+        std::cout << io::json_text(nlohmann::json{{"schema", 1}, {"models", written}, {"failures", failures}});
     else
         std::cout << fmt::format("{} models in {}\n", written.size(), folder.string());
     for (const auto& failure : failures) std::cerr << failure << '\n';

@@ -12,8 +12,8 @@
 #include "cli/method_options.h"
 #include "cli/subject_names.h"
 #include "evaluation/comparison_panels.h"
-#include "geometry/errors.h"
-#include "geometry/json_values.h"
+#include "base/errors.h"
+#include "io/json_values.h"
 
 namespace mimik::cli {
 namespace {
@@ -108,7 +108,7 @@ int say_plan(const Arguments& arguments, const std::vector<Planned>& planned) {
     }
     const double seconds = panels * seconds_per_panel, megabytes = panels * megabytes_per_panel;
     if (arguments.common.json)
-        std::cout << geometry::json_text(nlohmann::json{{"schema", 1},
+        std::cout << io::json_text(nlohmann::json{{"schema", 1},
                                                         {"dry_run", true},
                                                         {"figures", pictures},
                                                         {"seconds", seconds},
@@ -169,7 +169,7 @@ int run(Arguments& arguments) {
         progress.advance(one.name);
     }
     if (arguments.common.json)
-        std::cout << geometry::json_text(
+        std::cout << io::json_text(
             nlohmann::json{{"schema", 1}, {"dry_run", false}, {"figures", figures}, {"failures", failures}});
     for (const auto& failure : failures) std::cerr << failure << '\n';
     return failures.empty() ? exit_done : exit_done_with_failures;

@@ -11,8 +11,8 @@
 #include "cli/command.h"
 #include "cli/figure_start.h"
 #include "database/scan_database.h"
-#include "geometry/errors.h"
-#include "geometry/json_values.h"
+#include "base/errors.h"
+#include "io/json_values.h"
 #include "modeling/control_points.h"
 #include "modeling/facs_catalogue.h"
 #include "preprocessing/quality_sheet.h"
@@ -88,7 +88,7 @@ int say_plan(const Arguments& arguments, const database::ScanDatabase& database,
     const double megabytes = (faces * vertices * bytes_per_vertex + on_sheets * sheet_bytes_per_scan) / 1e6;
     const double seconds = (faces * seconds_per_scan + on_sheets * sheet_seconds_per_scan) / working_threads();
     if (arguments.common.json)
-        std::cout << geometry::json_text(nlohmann::json{{"schema", 1},
+        std::cout << io::json_text(nlohmann::json{{"schema", 1},
                                                         {"dry_run", true},
                                                         {"scans", scans.size()},
                                                         {"up_to_date", plan.up_to_date},
@@ -152,7 +152,7 @@ int run(Arguments& arguments) {
         if (arguments.sheets)
             document["sheets"] = {
                 {"drawn", sheets.drawn}, {"up_to_date", sheets.up_to_date}, {"failures", sheets.failures}};
-        std::cout << geometry::json_text(document);
+        std::cout << io::json_text(document);
     } else {
         if (!arguments.common.quiet) print_remarks(report, database.remarks);
         for (const auto& failure : report.failures) std::cerr << fmt::format("{}: {}\n", failure.scan, failure.reason);

@@ -9,9 +9,9 @@
 
 #include "cli/command.h"
 #include "cli/regions_file.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/json_values.h"
 #include "modeling/average_fingerprint.h"
 #include "modeling/region_labels.h"
 #include "preprocessing/workspace.h"
@@ -32,17 +32,17 @@ int run(const Arguments& arguments) {
     const auto file =
         arguments.output.empty() ? default_regions_file(workspace) : std::filesystem::path(arguments.output);
     const auto text = modeling::encode_region_labels(labels, modeling::average_fingerprint(average));
-    if (!arguments.force && std::filesystem::exists(file) && geometry::read_text(file) != text)
+    if (!arguments.force && std::filesystem::exists(file) && base::read_text(file) != text)
         throw InputError(
             fmt::format("{}: differs from what would be written; if nobody's work is in it, replace it with --force, "
                         "else give another file with -o",
                         file.string()));
-    geometry::write_atomically(file, text);
+    base::write_atomically(file, text);
     std::map<std::string, std::size_t> count;
     for (const auto& label : labels.label)
         if (!label.empty()) ++count[label];
     if (arguments.common.json) {
-        std::cout << geometry::json_text(nlohmann::json{{"schema", 1}, {"file", file.string()}, {"vertices", count}});
+        std::cout << io::json_text(nlohmann::json{{"schema", 1}, {"file", file.string()}, {"vertices", count}});
     } else {
         for (const auto& [name, vertices] : count) std::cout << fmt::format("{:<14} {:>6} vertices\n", name, vertices);
         std::cout << fmt::format("{}\n", file.string());

@@ -14,9 +14,9 @@
 
 #include "cli/command.h"
 #include "database/catalogue.h"
-#include "geometry/errors.h"
-#include "geometry/json_values.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "io/json_values.h"
+#include "base/text.h"
 
 namespace mimik::cli {
 namespace {
@@ -112,7 +112,7 @@ void print_json(const ScanDatabase& database, const std::vector<const ScanEntry*
                                 {"scans", nlohmann::ordered_json::array()}});
         subjects.back()["scans"].push_back(json_of(entry, result.summaries[i]));
     }
-    std::cout << geometry::json_text(json);
+    std::cout << io::json_text(json);
 }
 
 /// Columns as wide as their widest cell; the first is left-aligned, and the last.
@@ -218,9 +218,9 @@ void print_findings(const std::vector<const ScanEntry*>& scans, const CatalogueR
 
 int action_unit_number(const std::string& text) {
     std::string_view word = text;
-    if (geometry::equal_ignoring_case(word.substr(0, 2), "AU")) word.remove_prefix(2);
+    if (base::equal_ignoring_case(word.substr(0, 2), "AU")) word.remove_prefix(2);
     constexpr std::int64_t most = 999;
-    if (const auto number = geometry::parse_integer(word); number && *number > 0 && *number <= most)
+    if (const auto number = base::parse_integer(word); number && *number > 0 && *number <= most)
         return static_cast<int>(*number);
     throw InputError(fmt::format(
         "--au is '{}'; give the number of an AU, such as 12 or AU12, and the side, if it matters, by --side", text));

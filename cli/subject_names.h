@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "geometry/text.h"
+#include "base/text.h"
 #include "preprocessing/workspace.h"
 
 namespace mimik::cli {
@@ -11,7 +11,7 @@ namespace mimik::cli {
 /// for the message that says so.
 [[nodiscard]] inline std::string subject_named(const preprocessing::Workspace& workspace, const std::string& typed) {
     for (auto& subject : workspace.subjects())
-        if (geometry::equal_ignoring_case(subject, typed)) return subject;
+        if (base::equal_ignoring_case(subject, typed)) return subject;
     return typed;
 }
 

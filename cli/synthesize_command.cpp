@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
-#include "geometry/errors.h"
-#include "geometry/json_values.h"
+#include "base/errors.h"
+#include "io/json_values.h"
 #include "synthesis/synthesize.h"
 
 namespace mimik::cli {
@@ -52,7 +52,7 @@ int run_synthesize(const SynthesizeArguments& arguments) {
         const double seconds = estimate.core_seconds / working_threads();
         const double megabytes = static_cast<double>(estimate.bytes) / 1e6;
         if (arguments.common.json)
-            std::cout << geometry::json_text(nlohmann::json{{"schema", 1},
+            std::cout << io::json_text(nlohmann::json{{"schema", 1},
                                                             {"dry_run", true},
                                                             {"scans", estimate.scans},
                                                             {"bytes", estimate.bytes},
@@ -77,7 +77,7 @@ int run_synthesize(const SynthesizeArguments& arguments) {
         return 128 + stop_signal;  // as shells count
     }
     if (arguments.common.json) {
-        std::cout << geometry::json_text(nlohmann::json{{"schema", 1},
+        std::cout << io::json_text(nlohmann::json{{"schema", 1},
                                                         {"database", arguments.out},
                                                         {"face_model", model->name()},
                                                         {"subjects", report.subjects},

@@ -9,8 +9,8 @@
 #include "cli/command.h"
 #include "cli/method_options.h"
 #include "database/hidden_subjects.h"
-#include "geometry/json_values.h"
-#include "geometry/warp.h"
+#include "io/json_values.h"
+#include "io/warp_file.h"
 
 namespace mimik::cli {
 namespace {
@@ -19,7 +19,7 @@ struct WarpArguments {
     Common common;
     std::filesystem::path from, to, input, output;
     std::string kernel = "r";
-    geometry::WarpOptions options;
+    io::WarpOptions options;
 };
 
 int run_warp(const WarpArguments& arguments) {
@@ -28,9 +28,9 @@ int run_warp(const WarpArguments& arguments) {
     auto options = arguments.options;
     options.kernel = kernel_by_name(arguments.kernel);
     options.check_texture = [](const std::filesystem::path& image) { database::refuse_hidden_file(image); };
-    const auto report = geometry::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, options);
+    const auto report = io::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, options);
     if (arguments.common.json) {
-        std::cout << geometry::json_text(nlohmann::json{{"schema", 1},
+        std::cout << io::json_text(nlohmann::json{{"schema", 1},
                                                         {"output", arguments.output.string()},
                                                         {"landmarks", report.landmarks},
                                                         {"points", report.points},

@@ -14,9 +14,9 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/text.h"
 
 namespace mimik::database {
 namespace {
@@ -139,7 +139,7 @@ Bnt decode_bnt(std::span<const std::uint8_t> bytes, const std::string& name) {
 }
 
 bool is_bnt(const std::filesystem::path& file) {
-    return geometry::equal_ignoring_case(file.extension().string(), ".bnt");
+    return base::equal_ignoring_case(file.extension().string(), ".bnt");
 }
 
 // Reads straight into the five columns: no second copy of the file in memory.
@@ -201,7 +201,7 @@ void write_bnt(const std::filesystem::path& file, const Bnt& bnt) {
     if (bnt.texture_file.size() > 65535)
         throw InputError(fmt::format("{}: the texture name has {} bytes, 65535 is the most; shorten it", file.string(),
                                      bnt.texture_file.size()));
-    geometry::write_atomically(file, [&](std::ostream& out) {
+    base::write_atomically(file, [&](std::ostream& out) {
         const auto put = [&](const auto& value) { out.write(reinterpret_cast<const char*>(&value), sizeof value); };
         put(bnt.rows);
         put(bnt.cols);
@@ -214,10 +214,10 @@ void write_bnt(const std::filesystem::path& file, const Bnt& bnt) {
     });
 }
 
-geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name, geometry::LengthUnit unit) {
+geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name, io::LengthUnit unit) {
     geometry::RangeScan scan;
     try {
-        if (!bnt.texture_file.empty()) scan.texture_file = geometry::checked_texture_name(bnt.texture_file, name);
+        if (!bnt.texture_file.empty()) scan.texture_file = io::checked_texture_name(bnt.texture_file, name);
     } catch (const InputError& e) {  // the surface can be used without its picture
         scan.texture_error = e.what();
     }
@@ -230,7 +230,7 @@ geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name, geome
     // A measurement is finite and in no coordinate the background marker (files with partly marked points exist).
     const auto measured = [&](double value) { return std::isfinite(value) && value != bnt.background; };
     bool any_texture = false;
-    const double scale = geometry::millimetres_per(unit);
+    const double scale = io::millimetres_per(unit);
     for (std::size_t i = 0; i < cells; ++i) {
         if (measured(bnt.x[i]) && measured(bnt.y[i]) && measured(bnt.z[i])) {
             scan.points_mm[i] = scale * geometry::Point(bnt.x[i], bnt.y[i], bnt.z[i]);
@@ -248,10 +248,10 @@ geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name, geome
     return scan;
 }
 
-geometry::RangeScan read_bnt_scan(const std::filesystem::path& file, geometry::LengthUnit unit,
-                                  geometry::BadTexture bad_texture) {
+geometry::RangeScan read_bnt_scan(const std::filesystem::path& file, io::LengthUnit unit,
+                                  io::BadTexture bad_texture) {
     auto scan = to_range_scan(read_bnt(file), file.string(), unit);
-    if (bad_texture == geometry::BadTexture::refuse && !scan.texture_error.empty())
+    if (bad_texture == io::BadTexture::refuse && !scan.texture_error.empty())
         throw InputError(scan.texture_error);
     return scan;
 }
@@ -274,7 +274,7 @@ Bnt to_bnt(const geometry::RangeScan& scan, double background) {
     bnt.rows = static_cast<std::uint16_t>(scan.rows);
     bnt.cols = static_cast<std::uint16_t>(scan.cols);
     bnt.background = background;
-    if (!scan.texture_file.empty()) bnt.texture_file = geometry::checked_texture_name(scan.texture_file, "scan");
+    if (!scan.texture_file.empty()) bnt.texture_file = io::checked_texture_name(scan.texture_file, "scan");
     for (auto* column : columns(bnt)) column->assign(cells, background);
     for (std::size_t i = 0; i < cells; ++i) {
         if (!scan.valid(i)) continue;

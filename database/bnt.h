@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh_io.h"
+#include "io/mesh_io.h"
 #include "geometry/range_scan.h"
 
 namespace mimik::database {
@@ -32,11 +32,11 @@ void write_bnt(const std::filesystem::path& file, const Bnt& bnt);
 /// bottom. A texture's name that is no bare file name is not followed: texture_error says so, beginning with `name`.
 /// @throws InputError, beginning so too, for a coordinate beyond 1e6 mm, which no scanner measures.
 [[nodiscard]] geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name,
-                                                geometry::LengthUnit unit = geometry::LengthUnit::millimetre);
+                                                io::LengthUnit unit = io::LengthUnit::millimetre);
 /// Both in one. @throws InputError also for that name, unless it is asked to be reported.
 [[nodiscard]] geometry::RangeScan read_bnt_scan(const std::filesystem::path& file,
-                                                geometry::LengthUnit unit = geometry::LengthUnit::millimetre,
-                                                geometry::BadTexture bad_texture = geometry::BadTexture::refuse);
+                                                io::LengthUnit unit = io::LengthUnit::millimetre,
+                                                io::BadTexture bad_texture = io::BadTexture::refuse);
 /// The scan must be organised. NaN points become background cells.
 [[nodiscard]] Bnt to_bnt(const geometry::RangeScan& scan, double background = -1e9);
 

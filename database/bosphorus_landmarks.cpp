@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 
 #include "database/scan_id.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/landmark_io.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/landmark_io.h"
+#include "base/text.h"
 
 namespace mimik::database {
 namespace {
@@ -250,7 +250,7 @@ std::optional<int> first_number_of_68(const geometry::Landmarks& raw) {
     if (raw.size() != 68) return std::nullopt;
     std::array<bool, 69> seen{};
     for (const auto& mark : raw.all()) {
-        const auto number = geometry::parse_integer(mark.name);
+        const auto number = base::parse_integer(mark.name);
         if (!number || *number < 0 || *number > 68) return std::nullopt;
         seen[static_cast<std::size_t>(*number)] = true;
     }
@@ -262,20 +262,20 @@ std::optional<int> first_number_of_68(const geometry::Landmarks& raw) {
 }  // namespace
 
 geometry::Landmarks parse_lm3(std::string_view text, const std::string& name) {
-    return geometry::decode_landmarks(geometry::LandmarkFormat::lm3, text, name);
+    return io::decode_landmarks(io::LandmarkFormat::lm3, text, name);
 }
 
 geometry::Landmarks read_lm3(const std::filesystem::path& file) {
-    return parse_lm3(geometry::read_text(file, max_file_bytes), file.string());
+    return parse_lm3(base::read_text(file, max_file_bytes), file.string());
 }
 
 void write_lm3(const std::filesystem::path& file, const geometry::Landmarks& bosphorus_labelled) {
-    geometry::write_atomically(file, geometry::encode_landmarks(geometry::LandmarkFormat::lm3, bosphorus_labelled));
+    base::write_atomically(file, io::encode_landmarks(io::LandmarkFormat::lm3, bosphorus_labelled));
 }
 
 std::vector<ImageLandmark> parse_lm2(std::string_view text, const std::string& name) {
-    geometry::LineReader lines(text, name);
-    const std::size_t count = geometry::read_landmark_count(lines);
+    base::LineReader lines(text, name);
+    const std::size_t count = io::read_landmark_count(lines);
     const auto next = [&](const std::string& what) {
         if (!lines.next_not_blank())
             throw InputError(fmt::format("{}: ends before {}; the file is truncated: copy it again", name, what));
@@ -284,43 +284,43 @@ std::vector<ImageLandmark> parse_lm2(std::string_view text, const std::string& n
         next(example);
         if (!as_name(lines.line()).starts_with(begin))
             lines.fail(fmt::format("{} stands where '{}' is expected; the count may be wrong",
-                                   geometry::in_quotes(lines.line()), example));
+                                   base::in_quotes(lines.line()), example));
     };
     std::vector<ImageLandmark> marks;
     expect_heading("labels", "Labels:");
     while (marks.size() < count) {
         next(fmt::format("label {} of {}", marks.size() + 1, count));
-        marks.push_back({std::string(geometry::trimmed(lines.line())), 0, 0});
+        marks.push_back({std::string(base::trimmed(lines.line())), 0, 0});
     }
     expect_heading("2d", "2D Image coordinates:");
     for (auto& mark : marks) {
-        next(fmt::format("the position of {}", geometry::in_quotes(mark.label)));
+        next(fmt::format("the position of {}", base::in_quotes(mark.label)));
         std::string_view rest = lines.line();
-        const auto x = geometry::parse_double(geometry::next_word(rest)),
-                   y = geometry::parse_double(geometry::next_word(rest));
-        if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y) || !geometry::trimmed(rest).empty())
+        const auto x = base::parse_double(base::next_word(rest)),
+                   y = base::parse_double(base::next_word(rest));
+        if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y) || !base::trimmed(rest).empty())
             lines.fail(fmt::format("{} stands where x y of landmark {} are expected; mark it again",
-                                   geometry::in_quotes(lines.line()), geometry::in_quotes(mark.label)));
+                                   base::in_quotes(lines.line()), base::in_quotes(mark.label)));
         mark.column = *x;
         mark.row = *y;
     }
     if (lines.next_not_blank())
         lines.fail(fmt::format("{} follows after all {} landmarks; correct the count",
-                               geometry::in_quotes(lines.line()), count));
+                               base::in_quotes(lines.line()), count));
     return marks;
 }
 
 std::vector<ImageLandmark> read_lm2(const std::filesystem::path& file) {
-    return parse_lm2(geometry::read_text(file, max_file_bytes), file.string());
+    return parse_lm2(base::read_text(file, max_file_bytes), file.string());
 }
 
 void write_lm2(const std::filesystem::path& file, const std::vector<ImageLandmark>& marks) {
     std::string text =
         fmt::format("# 2D landmarks in pixels of the texture image\n\n{} landmarks:\n\nLabels:\n", marks.size());
-    for (const auto& mark : marks) text += fmt::format("{}\n", geometry::trimmed(mark.label));
+    for (const auto& mark : marks) text += fmt::format("{}\n", base::trimmed(mark.label));
     text += "\n2D Image coordinates:\n";
     for (const auto& mark : marks) text += fmt::format("{} {}\n", mark.column, mark.row);
-    geometry::write_atomically(file, text);
+    base::write_atomically(file, text);
 }
 
 geometry::Landmarks from_bosphorus_labels(const geometry::Landmarks& raw, SideReport* report) {

@@ -13,10 +13,10 @@
 #include <sqlite3.h>
 #include <sys/stat.h>
 
-#include "geometry/content_hash.h"
-#include "geometry/errors.h"
-#include "geometry/json_values.h"
-#include "geometry/parallel.h"
+#include "base/content_hash.h"
+#include "base/errors.h"
+#include "io/json_values.h"
+#include "base/parallel.h"
 
 namespace mimik::database {
 namespace {
@@ -181,11 +181,11 @@ std::string to_json(const ScanSummary& s) {
 
 ScanSummary summary_from_json(const std::string& text) {
     constexpr std::size_t most = std::size_t{1} << 31;
-    const auto json = geometry::parse_json(text, "summary");
+    const auto json = io::parse_json(text, "summary");
     ScanSummary s;
-    s.rows = static_cast<int>(geometry::whole_number_below(most, json.at("rows"), "rows"));
-    s.cols = static_cast<int>(geometry::whole_number_below(most, json.at("cols"), "cols"));
-    s.points = geometry::whole_number_below(most, json.at("points"), "points");
+    s.rows = static_cast<int>(io::whole_number_below(most, json.at("rows"), "rows"));
+    s.cols = static_cast<int>(io::whole_number_below(most, json.at("cols"), "cols"));
+    s.points = io::whole_number_below(most, json.at("points"), "points");
     s.landmarks = json.at("landmarks").get<std::vector<std::string>>();
     s.remarks = json.at("remarks").get<std::vector<std::string>>();
     s.files_looked_for = json.at("files_looked_for").get<std::vector<std::string>>();
@@ -350,7 +350,7 @@ fs::path catalogue_file(const ScanDatabase& database, const CatalogueOptions& op
         else
             return {};
     }
-    geometry::ContentHash hash;
+    base::ContentHash hash;
     hash.add(database.root.string());
     return folder / fmt::format("catalogue-{}.sqlite", hash.text());
 }
@@ -391,7 +391,7 @@ CatalogueResult catalogue(const ScanDatabase& database, std::span<const ScanEntr
     result.summaries.resize(count);
     std::vector<std::string> states(count), check_states(count), keys(count);
     std::vector<char> known(count, 0);
-    geometry::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const ScanEntry& entry = *scans[i];
             keys[i] = key_of(entry);

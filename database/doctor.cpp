@@ -12,9 +12,9 @@
 #include <fmt/ranges.h>
 
 #include "database/bnt.h"
-#include "geometry/errors.h"
-#include "geometry/json_values.h"
-#include "geometry/landmark_io.h"
+#include "base/errors.h"
+#include "io/json_values.h"
+#include "io/landmark_io.h"
 
 namespace mimik::database {
 namespace {
@@ -113,7 +113,7 @@ void check_unit(const LoadedScan& loaded, const DoctorOptions& options, Report& 
     if (ratio * unit->mm < options.min_size_ratio / slack || ratio * unit->mm > options.max_size_ratio * slack)
         return report.add(Severity::error, "unit", what,
                           fmt::format("convert {} to {}, and check the landmarks", coordinates,
-                                      loaded.entry.unit == geometry::LengthUnit::millimetre
+                                      loaded.entry.unit == io::LengthUnit::millimetre
                                           ? "millimetres"
                                           : "the unit that manifest.csv gives them"),
                           where);
@@ -498,7 +498,7 @@ std::vector<Finding> check_scan(const ScanEntry& entry, const ScanEntry* neutral
     } catch (const InputError& e) {
         report.add(Severity::error, "unreadable", e.what(), "mend or replace the file");
         try {
-            if (!entry.landmarks_file.empty()) (void)geometry::read_landmarks(entry.landmarks_file, {}, entry.unit);
+            if (!entry.landmarks_file.empty()) (void)io::read_landmarks(entry.landmarks_file, {}, entry.unit);
         } catch (const InputError& of_landmarks) {
             landmarks_unreadable(of_landmarks.what());
         }
@@ -523,7 +523,7 @@ std::string to_json(const std::vector<Finding>& findings) {
 std::vector<Finding> findings_from_json(std::string_view json) {
     try {
         std::vector<Finding> findings;
-        for (const auto& item : geometry::parse_json(json, "findings")) {
+        for (const auto& item : io::parse_json(json, "findings")) {
             const auto severity = item.at("severity").get<std::string>();
             findings.push_back({severity == "error"     ? Severity::error
                                 : severity == "warning" ? Severity::warning

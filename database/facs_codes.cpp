@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::database {
 namespace {
@@ -40,7 +40,7 @@ ParsedCodes parse_codes(std::string_view codes) {
     ParsedCodes parsed;
     for (auto end = std::size_t{0}; end != std::string_view::npos;) {
         end = codes.find('+');
-        const auto code = geometry::trimmed(codes.substr(0, end));
+        const auto code = base::trimmed(codes.substr(0, end));
         if (const auto score = parse_code(code)) {
             parsed.any = true;
             if (score->action_unit > 0) parsed.scores.push_back(*score);
@@ -57,7 +57,7 @@ ParsedCodes parse_codes(std::string_view codes) {
 FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
     FacsCodes result;
     std::size_t not_understood = 0;
-    geometry::LineReader lines(text, name);
+    base::LineReader lines(text, name);
     const auto remark = [&](const std::string& what) {
         if (not_understood++ < max_remarks)
             result.remarks.push_back(fmt::format("{}: line {}: {}", name, lines.number(), what));
@@ -65,27 +65,27 @@ FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
     while (lines.next()) {
         if (lines.number() > max_lines)
             throw InputError(fmt::format("{}: more than {} lines; is it the right file?", name, max_lines));
-        const auto line = geometry::trimmed(lines.line());
+        const auto line = base::trimmed(lines.line());
         const auto arrow = line.find("->");
         if (line.empty()) continue;
         if (arrow != std::string_view::npos) {
-            auto scan = geometry::trimmed(line.substr(0, arrow));
+            auto scan = base::trimmed(line.substr(0, arrow));
             scan = scan.substr(0, scan.find('.'));  // some lists name the file
             const auto id = parse_scan_name(scan);
-            auto codes = parse_codes(geometry::trimmed(line.substr(arrow + 2)));
+            auto codes = parse_codes(base::trimmed(line.substr(arrow + 2)));
             if (id && codes.any) {
                 for (const auto code : codes.unknown)
                     remark(
                         fmt::format("code {} of {} is no action unit with an optional L or R before and A to E after "
                                     "it; the code is left out",
-                                    geometry::in_quotes(code), id->name()));
+                                    base::in_quotes(code), id->name()));
                 result.scores[*id] = std::move(codes.scores);
                 continue;
             }
         }
         if (lines.number() <= 2) continue;  // the two header lines, which may show the form with its arrow
         remark(fmt::format("{} is not of the form 'bs000_LFAU_12_0 -> 6B+12C'; the line is left out",
-                           geometry::in_quotes(line)));
+                           base::in_quotes(line)));
     }
     if (not_understood > 0 && result.scores.empty())
         throw InputError(

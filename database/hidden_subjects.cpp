@@ -10,9 +10,9 @@
 
 #include "database/manifest.h"
 #include "database/scan_id.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/text.h"
 
 namespace mimik::database {
 namespace {
@@ -27,7 +27,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// "bs001" of "bs001", "BS1" and "01"; empty for other words.
 std::optional<std::string> numbered(std::string_view word) {
-    const std::string lower = geometry::lower_case(word);
+    const std::string lower = base::lower_case(word);
     std::string_view digits = lower;
     if (digits.starts_with("bs")) digits.remove_prefix(2);
     if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
@@ -38,7 +38,7 @@ std::optional<std::string> numbered(std::string_view word) {
 /// What two spellings of one subject have in common.
 std::string canonical(std::string_view word) {
     if (auto number = numbered(word)) return *number;
-    std::string name = geometry::lower_case(word);
+    std::string name = base::lower_case(word);
     std::replace_if(
         name.begin(), name.end(), [](char c) { return c == ' ' || c == '_'; }, '-');
     return name;
@@ -60,8 +60,8 @@ public:
                             [](char c) { return c >= 0 && c < ' ' && c != '\t'; }))
                 lines_.fail("is not plain text; save the list as UTF-8 with a line for each subject");
             // A whole line first: a name may hold any character that separates others.
-            if (hide_known(geometry::trimmed(lines_.line()))) continue;
-            const auto entries = geometry::trimmed(lines_.line().substr(0, lines_.line().find('#')));
+            if (hide_known(base::trimmed(lines_.line()))) continue;
+            const auto entries = base::trimmed(lines_.line().substr(0, lines_.line().find('#')));
             if (!entries.empty() && !hide_known(entries)) take_parts(entries, " \t,;", &ListReader::take_field);
         }
         return {{found_.begin(), found_.end()}, std::move(remarks_)};
@@ -72,7 +72,7 @@ public:
         throw InputError(
             fmt::format("{}: line {}: {} is no subject of this database, nor is any other entry: nobody would be "
                         "hidden; write one subject a line as 'mimik scans' names them, or empty the list",
-                        name_, first_unmatched_line_, geometry::in_quotes(first_unmatched_)));
+                        name_, first_unmatched_line_, base::in_quotes(first_unmatched_)));
     }
 
 private:
@@ -131,14 +131,14 @@ private:
             first_unmatched_ = entry;
         }
         remark(fmt::format("{}: line {}: {} is no subject of this database and is not hidden", name_, lines_.number(),
-                           geometry::in_quotes(entry)));
+                           base::in_quotes(entry)));
     }
     void remark(std::string text) {
         if (remarks_.size() < most_remarks) remarks_.push_back(std::move(text));
     }
 
     std::string text_;
-    geometry::LineReader lines_;
+    base::LineReader lines_;
     std::string name_;
     std::vector<std::pair<std::string, std::string>> known_;  // canonical, as the database spells it
     bool numbers_are_subjects_ = false;
@@ -151,7 +151,7 @@ private:
 void add_manifest_subjects(const fs::path& manifest_file, const fs::path& file, std::vector<std::string>& subjects) {
     std::error_code error;
     if (!fs::is_regular_file(manifest_file, error)) return;
-    for (const auto& entry : parse_manifest(geometry::read_text(manifest_file, max_list_bytes), manifest_file).scans)
+    for (const auto& entry : parse_manifest(base::read_text(manifest_file, max_list_bytes), manifest_file).scans)
         if (entry.scan_file == file ||
             (entry.scan_file.filename() == file.filename() && fs::equivalent(entry.scan_file, file, error)))
             subjects.push_back(entry.id.subject);
@@ -199,7 +199,7 @@ void refuse_hidden_at(const fs::path& file) {
     for (const auto& list : lists_up_from(file.parent_path(), 4)) {
         const auto subjects = possible_subjects(file, list.file.parent_path());
         const auto hidden =
-            ListReader(geometry::read_text(list.file, most_hidden_list_bytes), list.file.string(), subjects)
+            ListReader(base::read_text(list.file, most_hidden_list_bytes), list.file.string(), subjects)
                 .read()
                 .subjects;
         for (const auto& subject : subjects)
@@ -223,7 +223,7 @@ std::vector<fs::path> hidden_subjects_files(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code error, ignored;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-        if (geometry::equal_ignoring_case(it->path().filename().string(), list_name) && !it->is_directory(ignored))
+        if (base::equal_ignoring_case(it->path().filename().string(), list_name) && !it->is_directory(ignored))
             files.push_back(it->path());
     if (error) {  // a folder that may be entered but not listed
         files.clear();
@@ -235,7 +235,7 @@ std::vector<fs::path> hidden_subjects_files(const fs::path& folder) {
 
 bool is_hidden(std::span<const std::string> hidden_subjects, std::string_view subject) {
     return std::any_of(hidden_subjects.begin(), hidden_subjects.end(),
-                       [&](const auto& hidden) { return geometry::equal_ignoring_case(hidden, subject); });
+                       [&](const auto& hidden) { return base::equal_ignoring_case(hidden, subject); });
 }
 
 HiddenSubjects hidden_subjects_of(const fs::path& folder, std::span<const std::string> subjects, KnownSubjects known) {
@@ -245,7 +245,7 @@ HiddenSubjects hidden_subjects_of(const fs::path& folder, std::span<const std::s
     for (const auto& place : places_of(folder))
         for (const auto& list : lists_up_from(place, 2)) {
             if (!seen.insert(list.file).second) continue;
-            const auto text = geometry::read_text(list.file, most_hidden_list_bytes);
+            const auto text = base::read_text(list.file, most_hidden_list_bytes);
             auto entries = list.above || known == KnownSubjects::some
                                ? ListReader(text, list.file.string(), subjects).read()
                                : parse_hidden_subjects(text, list.file.string(), subjects);

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "geometry/csv.h"
-#include "geometry/errors.h"
-#include "geometry/text.h"
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::database {
 namespace {
@@ -20,31 +20,31 @@ constexpr std::size_t max_scans = 1'000'000;
 
 /// A path of the manifest, absolute. It must not lead out of the manifest's folder: a database that was downloaded
 /// shall not reach other files.
-fs::path inside(const geometry::CsvReader& rows, const std::string& value, const fs::path& folder, const char* column) {
+fs::path inside(const base::CsvReader& rows, const std::string& value, const fs::path& folder, const char* column) {
     const fs::path path = fs::path(value).lexically_normal();
     if (path.is_absolute() || path.empty() || *path.begin() == "..")
         rows.fail(fmt::format("{} {} leads out of the manifest's folder; copy or link the file into it", column,
-                              geometry::in_quotes(value)));
+                              base::in_quotes(value)));
     return folder / path;
 }
 
 /// Letters, digits and '-': a subject's name becomes part of file names.
-std::string subject_name(const geometry::CsvReader& rows, const std::string& value) {
+std::string subject_name(const base::CsvReader& rows, const std::string& value) {
     std::string name;
     for (const char c : value) {
         const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
                            c == '.' || static_cast<unsigned char>(c) >= 0x80;
         if (!plain && c != ' ' && c != '_')
             rows.fail(fmt::format("subject {} has a character that file names cannot hold; use letters, digits and '-'",
-                                  geometry::in_quotes(value)));
+                                  base::in_quotes(value)));
         name += plain ? c : '-';
     }
-    if (!geometry::is_utf8(name))
+    if (!base::is_utf8(name))
         rows.fail(
-            fmt::format("subject {} is not written in UTF-8; save the table as UTF-8", geometry::in_quotes(value)));
+            fmt::format("subject {} is not written in UTF-8; save the table as UTF-8", base::in_quotes(value)));
     if (name.empty() || name.size() > 100 || name.front() == '.')
         rows.fail(
-            fmt::format("subject {} is no name; give 1 to 100 letters, digits or '-'", geometry::in_quotes(value)));
+            fmt::format("subject {} is no name; give 1 to 100 letters, digits or '-'", base::in_quotes(value)));
     return name;
 }
 
@@ -54,14 +54,14 @@ public:
     void add(const ScanId& expression, const std::string& text, const std::string& file,
              std::vector<std::string>& remarks) {
         if (expression.code.find('-') == std::string::npos) return;
-        std::string letters = geometry::lower_case(text);  // however the words are separated
+        std::string letters = base::lower_case(text);  // however the words are separated
         std::erase_if(letters, [](char c) { return c == ' ' || c == '\t' || c == '_' || c == '-'; });
         const auto [first, is_new] = first_.try_emplace(expression.expression(), text);
         if (!seen_.emplace(expression.expression(), std::move(letters)).second || is_new) return;
         remarks.push_back(
             fmt::format("{}: expressions {} and {} are both called {} and count as one; use other letters or digits if "
                         "they are two",
-                        file, geometry::in_quotes(first->second), geometry::in_quotes(text), expression.expression()));
+                        file, base::in_quotes(first->second), base::in_quotes(text), expression.expression()));
     }
 
 private:
@@ -70,18 +70,18 @@ private:
 };
 
 /// Also the words.
-std::string parse_sex(const geometry::CsvReader& rows, const std::string& value) {
-    std::string word = geometry::lower_case(value);
+std::string parse_sex(const base::CsvReader& rows, const std::string& value) {
+    std::string word = base::lower_case(value);
     if (word.empty() || word == "m" || word == "f") return word;
     if (word == "male" || word == "man") return "m";
     if (word == "female" || word == "woman") return "f";
-    rows.fail(fmt::format("sex is {}; give m, f or nothing", geometry::in_quotes(value)));
+    rows.fail(fmt::format("sex is {}; give m, f or nothing", base::in_quotes(value)));
 }
 
 }  // namespace
 
 Manifest parse_manifest(std::string_view text, const fs::path& file) {
-    geometry::CsvReader rows(text, file.string());
+    base::CsvReader rows(text, file.string());
     const auto subject = rows.column("subject"), expression = rows.column("expression"), scan = rows.column("scan");
     const auto landmarks = rows.find_column("landmarks"), sex = rows.find_column("sex"),
                unit = rows.find_column("unit");
@@ -98,15 +98,15 @@ Manifest parse_manifest(std::string_view text, const fs::path& file) {
         if (id->code.size() > 100)
             rows.fail(
                 fmt::format("expression {} becomes part of file names; give at most 100 bytes of letters and digits",
-                            geometry::in_quotes(rows.field(expression))));
+                            base::in_quotes(rows.field(expression))));
         entry.id = *id;
         entry.id.subject = subject_name(rows, rows.field(subject));
         if (entry.id.subject != rows.field(subject))
             manifest.remarks.push_back(fmt::format("{}: subject {} is called '{}'", file.string(),
-                                                   geometry::in_quotes(rows.field(subject)), entry.id.subject));
+                                                   base::in_quotes(rows.field(subject)), entry.id.subject));
         if (entry.id.group == "OTHER")
             manifest.remarks.push_back(fmt::format("{}: expression {} is none that Mimik knows; it is kept as {}",
-                                                   file.string(), geometry::in_quotes(rows.field(expression)),
+                                                   file.string(), base::in_quotes(rows.field(expression)),
                                                    entry.id.expression()));
         spellings.add(*id, rows.field(expression), file.string(), manifest.remarks);
         if (rows.field(scan).empty()) rows.fail("scan is empty; name the file");
@@ -116,7 +116,7 @@ Manifest parse_manifest(std::string_view text, const fs::path& file) {
             entry.landmarks_file = inside(rows, rows.field(*landmarks), folder, "landmarks");
         if (sex) entry.sex = parse_sex(rows, rows.field(*sex));
         try {
-            if (unit && !rows.field(*unit).empty()) entry.unit = geometry::parse_length_unit(rows.field(*unit));
+            if (unit && !rows.field(*unit).empty()) entry.unit = io::parse_length_unit(rows.field(*unit));
         } catch (const InputError& e) {
             rows.fail(e.what());
         }
@@ -127,14 +127,14 @@ Manifest parse_manifest(std::string_view text, const fs::path& file) {
 }
 
 std::map<std::string, std::string> parse_subjects(std::string_view text, const std::string& name) {
-    geometry::CsvReader rows(text, name);
+    base::CsvReader rows(text, name);
     const auto subject = rows.column("subject"), sex = rows.column("sex");
     std::map<std::string, std::string> sexes;
     while (rows.next()) {
         if (rows.field(subject).empty()) rows.fail("subject is empty; name one as its folder is named");
         const auto [known, is_new] =
-            sexes.emplace(geometry::lower_case(rows.field(subject)), parse_sex(rows, rows.field(sex)));
-        if (!is_new) rows.fail(fmt::format("subject {} stands twice; delete one", geometry::in_quotes(known->first)));
+            sexes.emplace(base::lower_case(rows.field(subject)), parse_sex(rows, rows.field(sex)));
+        if (!is_new) rows.fail(fmt::format("subject {} stands twice; delete one", base::in_quotes(known->first)));
     }
     return sexes;
 }

@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::database {
 
@@ -19,7 +19,7 @@ void SideDecisionOptions::check() const {
 }
 
 bool side_shows_at_mouth(const ScanId& id) {
-    return id.side() != Side::both && geometry::equal_ignoring_case(id.group, "LFAU");
+    return id.side() != Side::both && base::equal_ignoring_case(id.group, "LFAU");
 }
 
 SideDecision decide_side(const geometry::Landmarks& neutral, const geometry::Landmarks& expression,

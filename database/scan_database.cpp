@@ -13,12 +13,12 @@
 #include "database/bnt.h"
 #include "database/hidden_subjects.h"
 #include "database/manifest.h"
-#include "geometry/csv.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/landmark_io.h"
-#include "geometry/range_scan_io.h"
-#include "geometry/text.h"
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/landmark_io.h"
+#include "io/range_scan_io.h"
+#include "base/text.h"
 
 namespace mimik::database {
 namespace {
@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t max_list_bytes = 16 << 20;  // facscodes.lst of the whole database has 0.2 MB
 
-using geometry::lower_case;
+using base::lower_case;
 
-bool same(std::string_view a, std::string_view b) { return geometry::equal_ignoring_case(a, b); }
+bool same(std::string_view a, std::string_view b) { return base::equal_ignoring_case(a, b); }
 
 /// Names and kinds of what is in a folder, in the order of their names: the order of a folder is nobody's promise.
 std::vector<fs::path> listing(const fs::path& folder, std::vector<std::string>& remarks) {
@@ -131,7 +131,7 @@ fs::path first_file(const fs::path& root, std::initializer_list<const char*> nam
 
 void read_lists(ScanDatabase& database, const fs::path& named_root) {
     if (const auto file = first_file(database.root, {"facscodes.lst", "facscodes/facscodes.lst"}); !file.empty()) {
-        auto codes = parse_facs_codes(geometry::read_text(file, max_list_bytes), file.string());
+        auto codes = parse_facs_codes(base::read_text(file, max_list_bytes), file.string());
         std::move(codes.remarks.begin(), codes.remarks.end(), std::back_inserter(database.remarks));
         for (auto& entry : database.scans) {
             const auto id = parse_scan_name(entry.file_name_stem);
@@ -145,7 +145,7 @@ void read_lists(ScanDatabase& database, const fs::path& named_root) {
         }
     }
     if (const auto file = first_file(database.root, {"subjects.csv"}); !file.empty()) {
-        const auto sexes = parse_subjects(geometry::read_text(file, max_list_bytes), file.string());
+        const auto sexes = parse_subjects(base::read_text(file, max_list_bytes), file.string());
         for (auto& entry : database.scans)
             if (const auto it = sexes.find(lower_case(entry.id.subject)); it != sexes.end() && entry.sex.empty())
                 entry.sex = it->second;
@@ -165,7 +165,7 @@ std::optional<geometry::Landmarks> landmarks_if_readable(const ScanEntry& entry)
         if (extension == ".lm3") return from_bosphorus_labels(read_lm3(file));
         // Slicer's files need the scan: it tells which of two frames they are in.
         if (extension == ".fcsv" || extension == ".json") return load(entry).landmarks;
-        return from_any_labels(geometry::read_landmarks(file, {}, entry.unit));
+        return from_any_labels(io::read_landmarks(file, {}, entry.unit));
     } catch (const InputError&) {
         return std::nullopt;
     }
@@ -216,8 +216,8 @@ void decide_code_sides(ScanDatabase& database) {
 
 geometry::RangeScan read_scan(const ScanEntry& entry) {
     try {
-        return is_bnt(entry.scan_file) ? read_bnt_scan(entry.scan_file, entry.unit, geometry::BadTexture::report)
-                                       : geometry::read_range_scan(entry.scan_file, entry.unit);
+        return is_bnt(entry.scan_file) ? read_bnt_scan(entry.scan_file, entry.unit, io::BadTexture::report)
+                                       : io::read_range_scan(entry.scan_file, entry.unit);
     } catch (const InputError&) {
         throw;
     } catch (const std::exception& e) {  // memory that the system refused, say
@@ -227,7 +227,7 @@ geometry::RangeScan read_scan(const ScanEntry& entry) {
 }
 
 geometry::Landmarks read_named_landmarks(const ScanEntry& entry, const geometry::RangeScan& scan, SideReport& sides) {
-    const auto raw = geometry::read_landmarks(entry.landmarks_file, scan.points_mm, entry.unit);
+    const auto raw = io::read_landmarks(entry.landmarks_file, scan.points_mm, entry.unit);
     try {
         return same(entry.landmarks_file.extension().string(), ".lm3") ? from_bosphorus_labels(raw, &sides)
                                                                        : from_any_labels(raw, &sides);
@@ -286,7 +286,7 @@ void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& near
     }
     if (entry.texture_file.empty()) return;
     try {
-        const auto size = geometry::image_size(entry.texture_file);
+        const auto size = io::image_size(entry.texture_file);
         loaded.checks.texture = texture_orientation(loaded.scan, loaded.landmarks, nearest, marks, size);
     } catch (const InputError& e) {
         loaded.remarks.emplace_back(e.what());  // the surface can be used without its picture
@@ -307,9 +307,9 @@ void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& near
 
 }  // namespace
 
-std::optional<geometry::Image> load_texture(const ScanEntry& entry) {
+std::optional<io::Image> load_texture(const ScanEntry& entry) {
     if (entry.texture_file.empty()) return std::nullopt;
-    return geometry::read_image(entry.texture_file);
+    return io::read_image(entry.texture_file);
 }
 
 std::vector<std::string> ScanDatabase::subjects() const {
@@ -344,7 +344,7 @@ ScanDatabase open_database(const std::filesystem::path& root) {
     if (error) throw InputError(fmt::format("{}: cannot be opened ({})", root.string(), error.message()));
 
     if (const auto file = first_file(database.root, {"manifest.csv"}); !file.empty()) {
-        auto manifest = parse_manifest(geometry::read_text(file, max_list_bytes), file);
+        auto manifest = parse_manifest(base::read_text(file, max_list_bytes), file);
         database.layout = DatabaseLayout::manifest;
         database.scans = std::move(manifest.scans);
         for (auto& entry : database.scans) entry.layout = DatabaseLayout::manifest;

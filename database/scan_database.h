@@ -11,9 +11,9 @@
 #include "database/one_sided_codes.h"
 #include "database/scan_id.h"
 #include "database/self_checks.h"
-#include "geometry/image.h"
+#include "io/image.h"
 #include "geometry/landmarks.h"
-#include "geometry/mesh_io.h"
+#include "io/mesh_io.h"
 #include "geometry/range_scan.h"
 
 namespace mimik::database {
@@ -29,7 +29,7 @@ struct ScanEntry {
     std::filesystem::path landmarks2d_file;  ///< .lm2
     std::filesystem::path texture_file;
     DatabaseLayout layout = DatabaseLayout::bosphorus;
-    geometry::LengthUnit unit = geometry::LengthUnit::millimetre;
+    io::LengthUnit unit = io::LengthUnit::millimetre;
     std::string sex;                     ///< "m", "f" or empty
     std::map<int, char> intensities;     ///< AU -> 'A'..'E' (0 where not scored), the stronger side, from facscodes.lst
     std::vector<FacsScore> facs_scores;  ///< the same with sides
@@ -99,6 +99,6 @@ struct LoadedScan {
 /// May be called from many threads. A texture that lies otherwise than expected is turned, with a remark. @throws
 /// InputError.
 [[nodiscard]] LoadedScan load(const ScanEntry& entry);
-[[nodiscard]] std::optional<geometry::Image> load_texture(const ScanEntry& entry);
+[[nodiscard]] std::optional<io::Image> load_texture(const ScanEntry& entry);
 
 }  // namespace mimik::database

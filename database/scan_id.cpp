@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::database {
 namespace {
@@ -154,14 +154,14 @@ std::optional<ScanId> parse_scan_name(std::string_view stem) {
 
 ScanId scan_id_from(std::string_view stem) {
     if (auto id = parse_scan_name(stem)) return *id;
-    throw InputError(fmt::format("{} is no scan name such as bs000_LFAU_12_0", geometry::in_quotes(stem)));
+    throw InputError(fmt::format("{} is no scan name such as bs000_LFAU_12_0", base::in_quotes(stem)));
 }
 
 namespace {
 
 /// A code becomes part of file names and of JSON.
 std::string plain_code(std::string_view code) {
-    const bool utf8 = geometry::is_utf8(code);
+    const bool utf8 = base::is_utf8(code);
     std::string plain(code);
     for (char& c : plain) {
         const bool beyond_ascii = static_cast<unsigned char>(c) >= 0x80;

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/text.h"
+#include "base/text.h"
 #include "geometry/types.h"
 
 namespace mimik::database {
@@ -109,7 +109,7 @@ std::optional<TextureOrientation> texture_orientation(const geometry::RangeScan&
         const std::string& label = mark.original_label.empty() ? mark.name : mark.original_label;
         const auto partner =
             std::find_if(image_landmarks.begin(), image_landmarks.end(), [&](const ImageLandmark& other) {
-                return geometry::equal_ignoring_case(geometry::trimmed(other.label), geometry::trimmed(label));
+                return base::equal_ignoring_case(base::trimmed(other.label), base::trimmed(label));
             });
         if (partner == image_landmarks.end()) continue;
         if (!std::isfinite(nearest[m].distance_mm)) continue;

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "geometry/surface_index.h"
 #include "modeling/control_points.h"
 #include "preprocessing/control_pairs.h"

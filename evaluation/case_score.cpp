@@ -1,6 +1,6 @@
 #include "evaluation/case_score.h"
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 
 namespace mimik::evaluation {
 

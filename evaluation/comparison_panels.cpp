@@ -11,13 +11,13 @@
 #include "animation/face_export.h"
 #include "evaluation/active_zone.h"
 #include "evaluation/surface_distance.h"
-#include "geometry/csv.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
-#include "geometry/landmark_io.h"
-#include "geometry/mesh_io.h"
-#include "geometry/text.h"
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/json_values.h"
+#include "io/landmark_io.h"
+#include "io/mesh_io.h"
+#include "base/text.h"
 #include "modeling/source_expression.h"
 #include "preprocessing/control_pairs.h"
 
@@ -107,10 +107,10 @@ bool write_controls(const fs::path& file, const std::vector<NamedControl>& contr
         if (control.kind == ControlKind::anchor || (control.kind == ControlKind::coverage) != coverage) continue;
         any = true;
         text +=
-            fmt::format("{},{:.17g},{:.17g},{:.17g},{}\n", geometry::csv_field(control.name), control.position_mm.x(),
+            fmt::format("{},{:.17g},{:.17g},{:.17g},{}\n", base::csv_field(control.name), control.position_mm.x(),
                         control.position_mm.y(), control.position_mm.z(), modeling::to_string(control.kind));
     }
-    if (any) geometry::write_atomically(file, text);
+    if (any) base::write_atomically(file, text);
     return any;
 }
 
@@ -160,7 +160,7 @@ public:
                                {"legend", true},
                                {"view", request_.view},
                                {"panels", panels_}};
-        geometry::write_atomically(file(description_file), geometry::json_text(document));
+        base::write_atomically(file(description_file), io::json_text(document));
         return file(description_file);
     }
     [[nodiscard]] std::size_t panels() const { return panels_.size(); }
@@ -180,8 +180,8 @@ private:
                 fs::remove(file(name.get<std::string>()), ignored);
         };
         try {
-            const auto text = geometry::read_text(file(description_file), geometry::most_json_bytes);
-            const auto earlier = geometry::parse_json(text, description_file);
+            const auto text = base::read_text(file(description_file), io::most_json_bytes);
+            const auto earlier = io::parse_json(text, description_file);
             for (const auto& panel : earlier.at("panels")) {
                 for (const char* key : {"mesh", "landmarks", "controls"})
                     if (panel.contains(key)) remove(panel.at(key));
@@ -268,9 +268,9 @@ void add_person(FigureFolder& folder, const Person& person, const geometry::Land
         neutral.attributes.push_back(distance_attribute(*person.scored, person.neutral.grid.vertices_mm, kept));
         animated.attributes.push_back(distance_attribute(*person.scored, person.animated.grid.vertices_mm, kept));
     }
-    geometry::write_mesh(folder.file(stem("neutral.ply")), neutral);
-    geometry::write_mesh(folder.file(stem("animated.ply")), animated);
-    geometry::write_landmarks(folder.file(stem("landmarks.csv")), landmarks);
+    io::write_mesh(folder.file(stem("neutral.ply")), neutral);
+    io::write_mesh(folder.file(stem("animated.ply")), animated);
+    io::write_landmarks(folder.file(stem("landmarks.csv")), landmarks);
 
     const auto who =
         person.role == "average" ? std::string("average face") : person.role + " " + person.neutral.id.subject;
@@ -283,7 +283,7 @@ void add_person(FigureFolder& folder, const Person& person, const geometry::Land
 
     auto real = person.real->grid;
     for (auto& p : real.vertices_mm) p = person.real->neutral_from_scan * p;
-    geometry::write_mesh(folder.file(stem("real.ply")), geometry::to_mesh(real, request.bridged));
+    io::write_mesh(folder.file(stem("real.ply")), geometry::to_mesh(real, request.bridged));
     auto& third = folder.add_panel(stem("real.ply"), "Real scan of the " + person.role, centre_mm);
     folder.add_controls(third, person.real_controls, stem("real_controls"));
 
@@ -388,7 +388,7 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
             source.real_controls.push_back(
                 {point.name, point.kind, source.real->neutral_from_scan * point.expressive_mm});
         }
-        if (!geometry::equal_ignoring_case(scans.source->code, request.expression))
+        if (!base::equal_ignoring_case(scans.source->code, request.expression))
             figure.remarks.push_back(
                 fmt::format("{} was taken from one side of {}", request.expression, scans.source->name()));
         people.push_back(std::move(source));
@@ -486,7 +486,7 @@ ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCa
             const auto animated = animated_face(face, model, request.method, magnitude);
             add_remarks(figure.remarks, animated.remarks);
             const auto name = series_mesh(model.expression, magnitude);
-            geometry::write_mesh(out.file(name), animation::to_mesh(animated, face, {.bridged = request.bridged}));
+            io::write_mesh(out.file(name), animation::to_mesh(animated, face, {.bridged = request.bridged}));
             out.add_panel(name, fmt::format("{}, m = {:g}", model.expression, magnitude), centre_mm);
         }
     }

@@ -9,8 +9,8 @@
 #include "evaluation/expression_cast.h"
 #include "evaluation/performance.h"
 #include "evaluation/target_cases.h"
-#include "geometry/errors.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/parallel.h"
 
 namespace mimik::evaluation {
 
@@ -132,7 +132,7 @@ private:
     /// A neutral that cannot be used is reported once, not once per expression.
     void find_usable() {
         std::vector<char> usable(report_.subjects.size(), 0);
-        geometry::parallel_for(usable.size(), 1, [&](std::size_t begin, std::size_t end) {
+        base::parallel_for(usable.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t s = begin; s < end; ++s) try {
                     reader_.check_neutral(report_.subjects[s]);
                     usable[s] = 1;

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/parallel.h"
+#include "base/parallel.h"
 
 namespace mimik::evaluation {
 
@@ -45,7 +45,7 @@ void in_batches(std::span<const ScanId> scans, const Take& take, const Keep& kee
     constexpr std::size_t batch = 16;
     for (std::size_t begin = 0; begin < scans.size(); begin += batch) {
         std::vector<std::invoke_result_t<Take, const ScanId&>> taken(std::min(batch, scans.size() - begin));
-        geometry::parallel_for(taken.size(), 1, [&](std::size_t first, std::size_t last) {
+        base::parallel_for(taken.size(), 1, [&](std::size_t first, std::size_t last) {
             for (std::size_t k = first; k < last; ++k) taken[k] = take(scans[begin + k]);
         });
         for (auto& one : taken) keep(one);

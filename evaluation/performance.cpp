@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "preprocessing/control_pairs.h"
 
 namespace mimik::evaluation {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluation/reference_band.h"
-#include "geometry/json_values.h"
-#include "geometry/text.h"
+#include "io/json_values.h"
+#include "base/text.h"
 
 namespace mimik::evaluation {
 namespace {
@@ -51,7 +51,7 @@ std::string explained_text(const ReferenceBand& band) {
     for (int digits = as_in_the_table; digits < all; ++digits) {
         auto text = fmt::format("{:.{}f}", band.explained, digits);
         auto as_shown = band;
-        as_shown.explained = geometry::parse_double(text).value_or(band.explained);
+        as_shown.explained = base::parse_double(text).value_or(band.explained);
         if (as_shown.inside() == band.inside()) return text;
     }
     return fmt::format("{}", band.explained);
@@ -182,7 +182,7 @@ std::string to_json(const ExperimentReport& report) {
                          {"low", band.low},
                          {"high", band.high},
                          {"inside", band.inside()}});
-    return geometry::json_text(nlohmann::json{
+    return io::json_text(nlohmann::json{
         {"schema", 1},
         {"subjects", report.subjects},
         {"expressions", report.expressions},

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/parallel.h"
+#include "base/parallel.h"
 #include "geometry/surface_index.h"
 
 namespace mimik::evaluation {
@@ -204,7 +204,7 @@ void score_in_order(std::size_t count, const std::function<TargetCases(std::size
     std::mutex mutex;
     std::map<std::size_t, TargetCases> waiting;
     std::size_t taken = 0;
-    geometry::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             // Whichever piece the scheduler begins, it does the first target that nobody has begun.
             const std::size_t t = next.fetch_add(1);

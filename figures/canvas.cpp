@@ -14,7 +14,7 @@
 #include <vtkTextProperty.h>
 #include <vtkUnicodeString.h>
 
-#include "geometry/file.h"
+#include "base/file.h"
 
 namespace mimik::figures {
 namespace {
@@ -30,7 +30,7 @@ vtkFreeTypeTools& free_type() {
 void set_font(vtkTextProperty& property, int size_px) {
     // DejaVu has every letter a caption may need; the font that VTK carries inside itself has few beyond ASCII.
     constexpr const char* dejavu = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-    static const bool has_dejavu = geometry::is_there(dejavu);
+    static const bool has_dejavu = base::is_there(dejavu);
     property.SetFontFamily(has_dejavu ? VTK_FONT_FILE : VTK_ARIAL);
     if (has_dejavu) property.SetFontFile(dejavu);
     property.SetFontSize(size_px);
@@ -92,7 +92,7 @@ void Canvas::disc(double centre_x, double centre_y, double radius, const Colour&
                   std::clamp(radius + 0.5 - std::hypot(col + 0.5 - centre_x, row + 0.5 - centre_y), 0.0, 1.0));
 }
 
-void Canvas::place(int x, int y, const geometry::Image& picture) {
+void Canvas::place(int x, int y, const io::Image& picture) {
     for (int row = 0; row < picture.height; ++row) {
         const auto first = picture.rgb.begin() + std::ptrdiff_t{3} * row * picture.width;
         std::copy_n(first, 3 * picture.width, at(x, y + row));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "figures/colour_map.h"
-#include "geometry/image.h"
+#include "io/image.h"
 
 namespace mimik::figures {
 
@@ -16,17 +16,17 @@ public:
 
     void fill(int x, int y, int width, int height, const Colour& colour);
     void disc(double centre_x, double centre_y, double radius, const Colour& colour);
-    void place(int x, int y, const geometry::Image& picture);  ///< must lie inside the canvas
+    void place(int x, int y, const io::Image& picture);  ///< must lie inside the canvas
     /// One line; `baseline_y` is the row the letters stand on. `anchor` 0: x is the left end, 0.5 the middle, 1 the
     /// right.
     void text(double x, int baseline_y, const std::string& line, int size_px, double anchor, const Colour& colour);
 
-    [[nodiscard]] const geometry::Image& image() const { return image_; }
+    [[nodiscard]] const io::Image& image() const { return image_; }
 
 private:
     [[nodiscard]] std::uint8_t* at(int x, int y);
     void blend(int x, int y, const Colour& colour, double cover);
-    geometry::Image image_;
+    io::Image image_;
 };
 
 /// Width in pixels of one line of text.

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::figures {
 namespace {
@@ -52,7 +52,7 @@ ColourMap parse_colour_map(const std::string& name) {
     if (name == "sequential") return ColourMap::sequential;
     if (name == "diverging") return ColourMap::diverging;
     throw InputError(
-        fmt::format("colour map {} is not known; give sequential or diverging", geometry::in_quotes(name)));
+        fmt::format("colour map {} is not known; give sequential or diverging", base::in_quotes(name)));
 }
 
 Colour map_colour(ColourMap map, double t) {
@@ -80,7 +80,7 @@ Colour parse_colour(const std::string& text) {
         const auto result = std::from_chars(first, first + 2, colour[k], 16);
         good = result.ec == std::errc() && result.ptr == first + 2;
     }
-    if (!good) throw InputError(fmt::format("colour {} is not of the form #rrggbb", geometry::in_quotes(text)));
+    if (!good) throw InputError(fmt::format("colour {} is not of the form #rrggbb", base::in_quotes(text)));
     return colour;
 }
 

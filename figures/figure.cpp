@@ -11,8 +11,8 @@
 #include "figures/canvas.h"
 #include "figures/offscreen.h"
 #include "figures/panel_scene.h"
-#include "geometry/errors.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::figures {
 namespace {
@@ -389,13 +389,13 @@ View parse_view(const std::string& name) {
         if (known == wanted) return view;
         names += (names.empty() ? "" : ", ") + known;
     }
-    throw InputError(fmt::format("view {} is not known; give one of {}", geometry::in_quotes(name), names));
+    throw InputError(fmt::format("view {} is not known; give one of {}", base::in_quotes(name), names));
 }
 
 Framing parse_framing(const std::string& name) {
     if (name == "own") return Framing::own;
     if (name == "common") return Framing::common;
-    throw InputError(fmt::format("framing {} is not known; give own or common", geometry::in_quotes(name)));
+    throw InputError(fmt::format("framing {} is not known; give own or common", base::in_quotes(name)));
 }
 
 void Figure::check() const {
@@ -416,7 +416,7 @@ void Figure::check() const {
                                            panels[p].caption.empty() ? "" : fmt::format(" ('{}')", panels[p].caption)));
 }
 
-geometry::Image render(const Figure& figure) {
+io::Image render(const Figure& figure) {
     figure.check();
     const Layout page = lay_out(figure);
     const auto cameras = aim_cameras(figure);

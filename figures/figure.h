@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "figures/colour_map.h"
-#include "geometry/image.h"
+#include "io/image.h"
 #include "geometry/mesh.h"
 #include "geometry/types.h"
 
@@ -59,7 +59,7 @@ struct Scalar {
 /// One face. A panel whose mesh has no vertices stays empty (a gap in the table, with its caption).
 struct Panel {
     geometry::Mesh mesh{};  ///< mm; faces with a corner that is not finite are left out; no faces: drawn as dots
-    std::optional<geometry::Image> texture{};  ///< needs texture coordinates; used where `scalar` is not
+    std::optional<io::Image> texture{};  ///< needs texture coordinates; used where `scalar` is not
     std::vector<MarkerSet> markers{};
     std::vector<ArrowSet> arrows{};
     std::optional<Scalar> scalar{};
@@ -98,7 +98,7 @@ struct Figure {
 /// same figure gives the same bytes on one machine. The first call of a process opens the renderer (see drawing_route).
 /// From any thread; one figure is drawn at a time.
 /// @throws InputError for a bad figure, or if the machine offers no way to draw.
-[[nodiscard]] geometry::Image render(const Figure& figure);
+[[nodiscard]] io::Image render(const Figure& figure);
 
 /// Opens the renderer if it is not open yet and says which way was found: "EGL surfaceless", "X display :0" or
 /// "Xvfb", with the name of the driver. The ways are tried in this order; the environment variable MIMIK_DRAWING (egl,

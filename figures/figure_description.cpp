@@ -10,18 +10,18 @@
 #include "database/bnt.h"
 #include "database/hidden_subjects.h"
 #include "figures/panel_scene.h"
-#include "geometry/csv.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
-#include "geometry/landmark_io.h"
-#include "geometry/text.h"
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/json_values.h"
+#include "io/landmark_io.h"
+#include "base/text.h"
 
 namespace mimik::figures {
 namespace {
 
 using geometry::Point;
-using geometry::shown;
+using io::shown;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -63,7 +63,7 @@ public:
     void finish() const {
         for (const auto& [key, value] : object_.items())
             if (!known_.contains(key))
-                fail(fmt::format("the key {} is not known; known are {}", geometry::in_quotes(key),
+                fail(fmt::format("the key {} is not known; known are {}", base::in_quotes(key),
                                  fmt::join(known_, ", ")));
     }
     [[noreturn]] void fail(const std::string& what) const {
@@ -141,7 +141,7 @@ PanelDescription panel_of(const Json& value, const std::string& place, const fs:
     Keys keys(value, place);
     const auto path = [&](const Json& name, const std::string&) { return folder / name.get<std::string>(); };
     keys.take("mesh", panel.mesh, path);
-    keys.take_parsed("unit", panel.unit, geometry::parse_length_unit);
+    keys.take_parsed("unit", panel.unit, io::parse_length_unit);
     keys.take("texture", panel.texture, path);
     keys.take("textured", panel.textured);
     keys.take("landmarks", panel.landmarks, path);
@@ -189,16 +189,16 @@ geometry::Mesh lattice_mesh(const geometry::RangeScan& scan) {
 }
 
 /// A texture that cannot be used is told: another image may take its place, or none be wanted.
-geometry::MeshFile read_face(const fs::path& file, geometry::LengthUnit unit) {
-    constexpr auto report = geometry::BadTexture::report;
-    if (!database::is_bnt(file)) return geometry::read_mesh_file(file, unit, geometry::MeshParts::all, report);
+io::MeshFile read_face(const fs::path& file, io::LengthUnit unit) {
+    constexpr auto report = io::BadTexture::report;
+    if (!database::is_bnt(file)) return io::read_mesh_file(file, unit, io::MeshParts::all, report);
     const auto scan = database::read_bnt_scan(file, unit, report);
     return {.mesh = lattice_mesh(scan), .texture_file = scan.texture_file, .texture_error = scan.texture_error};
 }
 
-std::vector<Point> positions(const fs::path& file, const geometry::Mesh& mesh, geometry::LengthUnit unit) {
+std::vector<Point> positions(const fs::path& file, const geometry::Mesh& mesh, io::LengthUnit unit) {
     std::vector<Point> points_mm;
-    const auto landmarks = geometry::read_landmarks(file, mesh.vertices_mm, unit);
+    const auto landmarks = io::read_landmarks(file, mesh.vertices_mm, unit);
     for (const auto& mark : landmarks.all()) points_mm.push_back(mark.position_mm);
     return points_mm;
 }
@@ -207,11 +207,11 @@ std::vector<Point> positions(const fs::path& file, const geometry::Mesh& mesh, g
 constexpr std::size_t most_marks = 100'000;
 constexpr std::uintmax_t most_table_bytes = std::uintmax_t{1} << 26;
 
-Point point_at(const geometry::CsvReader& table, const std::array<std::size_t, 3>& columns, double scale) {
+Point point_at(const base::CsvReader& table, const std::array<std::size_t, 3>& columns, double scale) {
     return scale * Point(table.number(columns[0]), table.number(columns[1]), table.number(columns[2]));
 }
 
-void refuse_one_too_many(const geometry::CsvReader& table, std::size_t count) {
+void refuse_one_too_many(const base::CsvReader& table, std::size_t count) {
     if (count >= most_marks) table.fail(fmt::format("more than {} lines; draw fewer", most_marks));
 }
 
@@ -235,25 +235,25 @@ Panel load_panel(const PanelDescription& description) {
         }
     }
     if (!description.texture.empty()) {
-        panel.texture = geometry::read_image(description.texture);
+        panel.texture = io::read_image(description.texture);
     } else if (description.textured) {
         if (!face.texture_error.empty()) throw InputError(face.texture_error);
         if (face.texture_file.empty())
             throw InputError(fmt::format("{}: names no texture; give one", description.mesh.string()));
         const auto image = description.mesh.parent_path() / face.texture_file;
         database::refuse_hidden_file(image);
-        panel.texture = geometry::read_image(image);
+        panel.texture = io::read_image(image);
     }
     if (!description.landmarks.empty())
         panel.markers.push_back({.name = "landmarks",
                                  .colour = landmark_colour,
                                  .positions_mm = positions(description.landmarks, panel.mesh, description.unit)});
     if (!description.controls.empty())
-        for (auto& set : decode_controls(geometry::read_text(description.controls, most_table_bytes),
+        for (auto& set : decode_controls(base::read_text(description.controls, most_table_bytes),
                                          description.controls.string(), description.unit))
             panel.markers.push_back(std::move(set));
     if (!description.arrows.empty())
-        panel.arrows.push_back(decode_arrows(geometry::read_text(description.arrows, most_table_bytes),
+        panel.arrows.push_back(decode_arrows(base::read_text(description.arrows, most_table_bytes),
                                              description.arrows.string(), description.unit));
     for (const auto& marker : description.markers)
         panel.markers.push_back(
@@ -263,16 +263,16 @@ Panel load_panel(const PanelDescription& description) {
 
 }  // namespace
 
-std::vector<MarkerSet> decode_controls(std::string_view text, const std::string& name, geometry::LengthUnit unit) {
-    geometry::CsvReader table(text, name);
-    const double scale = geometry::millimetres_per(unit);
+std::vector<MarkerSet> decode_controls(std::string_view text, const std::string& name, io::LengthUnit unit) {
+    base::CsvReader table(text, name);
+    const double scale = io::millimetres_per(unit);
     const std::array<std::size_t, 3> xyz = {table.column("x"), table.column("y"), table.column("z")};
     const auto kind = table.column("kind");
     MarkerSet muscles{.name = "muscle controls", .colour = muscle_colour};
     MarkerSet wrinkles{.name = "wrinkle controls", .colour = wrinkle_colour};
     while (table.next()) {
         if (table.field(kind) != "muscle" && table.field(kind) != "wrinkle")
-            table.fail(fmt::format("kind is {}; give muscle or wrinkle", geometry::in_quotes(table.field(kind))));
+            table.fail(fmt::format("kind is {}; give muscle or wrinkle", base::in_quotes(table.field(kind))));
         refuse_one_too_many(table, muscles.positions_mm.size() + wrinkles.positions_mm.size());
         (table.field(kind) == "muscle" ? muscles : wrinkles).positions_mm.push_back(point_at(table, xyz, scale));
     }
@@ -282,9 +282,9 @@ std::vector<MarkerSet> decode_controls(std::string_view text, const std::string&
     return sets;
 }
 
-ArrowSet decode_arrows(std::string_view text, const std::string& name, geometry::LengthUnit unit) {
-    geometry::CsvReader table(text, name);
-    const double scale = geometry::millimetres_per(unit);
+ArrowSet decode_arrows(std::string_view text, const std::string& name, io::LengthUnit unit) {
+    base::CsvReader table(text, name);
+    const double scale = io::millimetres_per(unit);
     const std::array<std::size_t, 3> from = {table.column("x"), table.column("y"), table.column("z")};
     const std::array<std::size_t, 3> to = {table.column("to_x"), table.column("to_y"), table.column("to_z")};
     ArrowSet set{.name = "displacements"};
@@ -296,7 +296,7 @@ ArrowSet decode_arrows(std::string_view text, const std::string& name, geometry:
 }
 
 FigureDescription decode_figure_description(const std::string& text, const std::string& name, const fs::path& folder) {
-    const Json root = geometry::parse_json(text, name);
+    const Json root = io::parse_json(text, name);
     FigureDescription description;
     Figure& page = description.page;
     Keys keys(root, name + ": ");
@@ -329,7 +329,7 @@ FigureDescription decode_figure_description(const std::string& text, const std::
 }
 
 FigureDescription read_figure_description(const fs::path& file) {
-    return decode_figure_description(geometry::read_text(file, geometry::most_json_bytes), file.string(),
+    return decode_figure_description(base::read_text(file, io::most_json_bytes), file.string(),
                                      file.parent_path());
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "figures/figure.h"
-#include "geometry/mesh_io.h"
+#include "io/mesh_io.h"
 
 namespace mimik::figures {
 
@@ -22,7 +22,7 @@ struct MarkerFile {
 /// A panel as files hold it.
 struct PanelDescription {
     std::filesystem::path mesh{};  ///< PLY, OBJ, STL, PCD, VTP or .bnt; empty: a gap in the table
-    geometry::LengthUnit unit = geometry::LengthUnit::millimetre;  ///< of the mesh and of the files that go with it
+    io::LengthUnit unit = io::LengthUnit::millimetre;  ///< of the mesh and of the files that go with it
     std::filesystem::path texture{};                               ///< PNG; empty: none
     bool textured = false;                                         ///< use the image that the mesh file itself names
     std::filesystem::path landmarks{};                             ///< drawn in blue; empty: none
@@ -52,7 +52,7 @@ struct FigureDescription {
 
 /// The tables that `controls` and `arrows` name, from memory. @throws InputError naming file, line, column and value.
 [[nodiscard]] std::vector<MarkerSet> decode_controls(std::string_view text, const std::string& name,
-                                                     geometry::LengthUnit unit);
-[[nodiscard]] ArrowSet decode_arrows(std::string_view text, const std::string& name, geometry::LengthUnit unit);
+                                                     io::LengthUnit unit);
+[[nodiscard]] ArrowSet decode_arrows(std::string_view text, const std::string& name, io::LengthUnit unit);
 
 }  // namespace mimik::figures

@@ -24,7 +24,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkXOpenGLRenderWindow.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 
 // Debian's GLEW is built for GLX: without an X server it loads every entry point and then reports "no GLX display",
 // which VTK takes for a failure and draws nothing. This definition stands before the library's and forgives that code.

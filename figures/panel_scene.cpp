@@ -24,7 +24,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "figures/offscreen.h"
-#include "geometry/errors.h"
+#include "base/errors.h"
 
 namespace mimik::figures {
 namespace {
@@ -133,7 +133,7 @@ Corners split_at_seams(const Mesh& mesh, bool textured) {
     return corners;
 }
 
-vtkSmartPointer<vtkTexture> make_texture(const geometry::Image& image) {
+vtkSmartPointer<vtkTexture> make_texture(const io::Image& image) {
     vtkNew<vtkImageData> data;
     data->SetDimensions(image.width, image.height, 1);
     data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
@@ -290,10 +290,10 @@ vtkSmartPointer<vtkActor> arrow_actor(const ArrowSet& set) {
     return make_actor(surface.finish(), set.colour);
 }
 
-geometry::Image read_back(vtkRenderWindow& window, int width, int height, int supersampling) {
+io::Image read_back(vtkRenderWindow& window, int width, int height, int supersampling) {
     vtkNew<vtkUnsignedCharArray> pixels;
     window.GetPixelData(0, 0, width * supersampling - 1, height * supersampling - 1, 0, pixels);
-    geometry::Image image{width, height, {}};
+    io::Image image{width, height, {}};
     image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     const unsigned char* drawn = pixels->GetPointer(0);
     const auto s = static_cast<std::size_t>(supersampling);
@@ -345,7 +345,7 @@ std::vector<double> scalar_values(const Mesh& mesh, const std::string& attribute
         fmt::format("the mesh has no attribute '{}'; it has: {}", attribute, names.empty() ? "none" : names));
 }
 
-geometry::Image draw_panel(const Panel& panel, const PanelCamera& camera, const Figure& figure,
+io::Image draw_panel(const Panel& panel, const PanelCamera& camera, const Figure& figure,
                            const std::array<double, 2>& scalar_range) {
     vtkNew<vtkRenderer> renderer;
     renderer->SetBackground(unit_rgb(figure.background).data());
@@ -373,7 +373,7 @@ geometry::Image draw_panel(const Panel& panel, const PanelCamera& camera, const 
     lens.SetParallelScale(0.5 * camera.mm_per_px * figure.panel_height_px);
     renderer->ResetCameraClippingRange();
 
-    geometry::Image image;
+    io::Image image;
     with_offscreen_window([&](vtkRenderWindow& window, const std::string&) {
         constexpr int samples_per_pixel = 8;  // the driver takes what it has; Mesa's software renderer gives 4
         window.SetMultiSamples(samples_per_pixel);

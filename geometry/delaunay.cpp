@@ -14,7 +14,7 @@
 #include <CGAL/spatial_sort.h>
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 
 namespace mimik::geometry {
 namespace {

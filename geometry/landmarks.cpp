@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "geometry/errors.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::geometry {
 
@@ -18,12 +18,12 @@ Landmarks::Landmarks(std::vector<Landmark> marks) : marks_(std::move(marks)) {
     for (const auto& mark : marks_) {
         if (mark.name.empty()) throw InputError("a landmark has an empty name; give every landmark a name");
         if (!seen.insert(mark.name).second)
-            throw InputError(fmt::format("landmark {} appears twice; keep one of the two", in_quotes(mark.name)));
+            throw InputError(fmt::format("landmark {} appears twice; keep one of the two", base::in_quotes(mark.name)));
         if (!mark.position_mm.allFinite())
             throw InputError(
                 fmt::format("landmark {} has a coordinate that is not a finite number; mark it again or "
                             "delete it",
-                            in_quotes(mark.name)));
+                            base::in_quotes(mark.name)));
     }
 }
 

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <nanoflann.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/parallel.h"
 
 namespace mimik::geometry {
 namespace {
@@ -171,7 +171,7 @@ PointIndex::Neighbour PointIndex::nearest(const Point& query_mm) const {
 
 std::vector<PointIndex::Neighbour> PointIndex::nearest(std::span<const Point> queries_mm) const {
     std::vector<Neighbour> neighbours(queries_mm.size());
-    parallel_for(queries_mm.size(), queries_per_piece, [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(queries_mm.size(), queries_per_piece, [&](std::size_t begin, std::size_t end) {
         NearestOne result{impl_->cloud};
         for (std::size_t i = begin; i < end; ++i) {
             check_query(queries_mm[i]);

@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
+#include "base/errors.h"
+#include "base/parallel.h"
 #include "geometry/box_distance.h"
-#include "geometry/errors.h"
-#include "geometry/parallel.h"
 
 namespace mimik::geometry {
 namespace {
@@ -438,7 +438,7 @@ std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_m
         throw InputError(fmt::format("{} near triangles for {} query points; give one for each", near_triangles.size(),
                                      queries_mm.size()));
     std::vector<SurfacePoint> answers(queries_mm.size());
-    parallel_for(queries_mm.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(queries_mm.size(), 1024, [&](std::size_t begin, std::size_t end) {
         std::uint32_t start = none;  // without a better guess, the last query's triangle
         for (std::size_t i = begin; i < end; ++i) {
             const Point& query = queries_mm[i];

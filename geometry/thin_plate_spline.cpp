@@ -12,9 +12,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/errors.h"
+#include "base/parallel.h"
 #include "geometry/cholesky_simd.h"
-#include "geometry/errors.h"
-#include "geometry/parallel.h"
 #include "geometry/thin_plate_spline_simd.h"
 
 namespace mimik::geometry {
@@ -261,7 +261,7 @@ void ThinPlateSpline::apply(std::span<const Point> source_mm, std::span<Point> t
     if (source_mm.size() != target_mm.size())
         throw InputError(fmt::format("thin-plate spline: {} points in but room for {} out; give spans of one size",
                                      source_mm.size(), target_mm.size()));
-    parallel_for(source_mm.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(source_mm.size(), points_per_piece, [&](std::size_t begin, std::size_t end) {
         evaluate(source_mm.data() + begin, target_mm.data() + begin, end - begin);
     });
 }

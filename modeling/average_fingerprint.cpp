@@ -1,11 +1,11 @@
 #include "modeling/average_fingerprint.h"
 
-#include "geometry/content_hash.h"
+#include "base/content_hash.h"
 
 namespace mimik::modeling {
 
 std::string average_fingerprint(const preprocessing::AverageFace& average) {
-    geometry::ContentHash hash;
+    base::ContentHash hash;
     const auto& grid = average.grid;
     hash.add(fmt::format("{} {}\n", grid.rows, grid.cols));
     for (std::size_t v = 0; v < grid.size(); ++v) {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "preprocessing/workspace.h"
 
 namespace mimik::modeling {

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
-#include "geometry/landmark_io.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/json_values.h"
+#include "io/landmark_io.h"
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
-#include "geometry/text.h"
+#include "base/text.h"
 #include "modeling/face_regions.h"
 #include "preprocessing/control_pairs.h"
 
@@ -284,7 +284,7 @@ nlohmann::json provenance_to_json(const ModelProvenance& provenance) {
 Frame parse_frame(const nlohmann::json& value) {
     const auto name = value.get<std::string>();
     if (name != "affine" && name != "similarity")
-        throw InputError(fmt::format("{} is neither affine nor similarity", geometry::in_quotes(name)));
+        throw InputError(fmt::format("{} is neither affine nor similarity", base::in_quotes(name)));
     return name == "affine" ? Frame::affine : Frame::similarity;
 }
 
@@ -292,11 +292,11 @@ geometry::SplineKernel parse_kernel(const nlohmann::json& value) {
     const auto name = value.get<std::string>();
     for (const auto kernel : {geometry::SplineKernel::r, geometry::SplineKernel::r2_log_r2})
         if (name == kernel_name(kernel)) return kernel;
-    throw InputError(fmt::format("{} is neither r nor r2logr", geometry::in_quotes(name)));
+    throw InputError(fmt::format("{} is neither r nor r2logr", base::in_quotes(name)));
 }
 
 ModelProvenance provenance_from_json(const nlohmann::json& json) {
-    using geometry::read_field;
+    using io::read_field;
     ModelProvenance provenance;
     provenance.mimik_version = read_field<std::string>(json, "mimik");
     provenance.method = read_field<std::string>(json, "method");
@@ -359,7 +359,7 @@ void check_expression_model(const ExpressionModel& model) {
 }
 
 std::string encode_expression_model(const ExpressionModel& model) {
-    using geometry::to_json;
+    using io::to_json;
     auto points = nlohmann::json::array();
     for (const auto& point : model.points)
         points.push_back({{"name", point.name},
@@ -381,22 +381,22 @@ std::string encode_expression_model(const ExpressionModel& model) {
                                {"left_out", model.left_out},
                                {"unusable_scans", model.unusable_scans}};
     if (model.provenance) document["provenance"] = provenance_to_json(*model.provenance);
-    return geometry::json_text(document);
+    return io::json_text(document);
 }
 
 void write_expression_model(const std::filesystem::path& file, const ExpressionModel& model) {
-    geometry::write_atomically(file, encode_expression_model(model));
+    base::write_atomically(file, encode_expression_model(model));
 }
 
 ExpressionModel decode_expression_model(std::string_view text, const std::string& name) {
-    using geometry::read_field;
+    using io::read_field;
     constexpr const char* mend = "make the model again with 'mimik model'";
-    return geometry::read_json_document(text, name, mend, [&](const nlohmann::json& document) {
+    return io::read_json_document(text, name, mend, [&](const nlohmann::json& document) {
         ExpressionModel model;
         if (!document.contains("kind"))
             throw InputError(name + ": is no expression model; give a file of 'mimik model'");
         if (const auto kind = read_field<std::string>(document, "kind"); kind != model_file_kind)
-            throw InputError(fmt::format("it is {}, not '{}'; give a file of 'mimik model'", geometry::in_quotes(kind),
+            throw InputError(fmt::format("it is {}, not '{}'; give a file of 'mimik model'", base::in_quotes(kind),
                                          model_file_kind));
         model.expression = read_field<std::string>(document, "expression");
         model.moves_upper_face = read_field<bool>(document, "moves_upper_face");
@@ -404,14 +404,14 @@ ExpressionModel decode_expression_model(std::string_view text, const std::string
         model.frame = read_field(document, "frame", parse_frame);
         model.sources = read_field<std::vector<std::string>>(document, "sources");
         model.mouth_width_mm = read_field<double>(document, "mouth_width_mm");
-        model.landmarks = geometry::landmarks_from_json(document, "landmarks");
-        geometry::read_list(document, "points", [&](const nlohmann::json& point) {
-            if (model.points.size() == geometry::most_landmarks)  // a spline goes through them, too
-                throw InputError(fmt::format("more than the {} points that are read", geometry::most_landmarks));
+        model.landmarks = io::landmarks_from_json(document, "landmarks");
+        io::read_list(document, "points", [&](const nlohmann::json& point) {
+            if (model.points.size() == io::most_landmarks)  // a spline goes through them, too
+                throw InputError(fmt::format("more than the {} points that are read", io::most_landmarks));
             model.points.push_back({read_field<std::string>(point, "name"),
                                     parse_control_kind(read_field<std::string>(point, "kind")),
-                                    read_field(point, "position_mm", geometry::vector_from_json),
-                                    read_field(point, "displacement_mm", geometry::vector_from_json),
+                                    read_field(point, "position_mm", io::vector_from_json),
+                                    read_field(point, "displacement_mm", io::vector_from_json),
                                     read_field<double>(point, "projection_mm")});
         });
         model.left_out = read_field<std::vector<std::string>>(document, "left_out");
@@ -426,7 +426,7 @@ ExpressionModel decode_expression_model(std::string_view text, const std::string
 }
 
 ExpressionModel read_expression_model(const std::filesystem::path& file) {
-    return decode_expression_model(geometry::read_text(file, geometry::most_json_bytes), file.string());
+    return decode_expression_model(base::read_text(file, io::most_json_bytes), file.string());
 }
 
 }  // namespace mimik::modeling

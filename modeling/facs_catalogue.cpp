@@ -12,11 +12,11 @@
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
-#include "geometry/content_hash.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/content_hash.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "geometry/landmarks.h"
-#include "geometry/text.h"
+#include "base/text.h"
 #include "modeling/arkit_shapes.h"
 #include "modeling/control_points.h"
 #include "modeling/reference_face.h"
@@ -55,7 +55,7 @@ public:
     void only_keys(const toml::table& table, std::initializer_list<std::string_view> known) {
         for (const auto& [key, node] : table)
             if (std::find(known.begin(), known.end(), key.str()) == known.end())
-                error(node, fmt::format("unknown key {}; known here: {}", geometry::in_quotes(key.str()),
+                error(node, fmt::format("unknown key {}; known here: {}", base::in_quotes(key.str()),
                                         fmt::join(known, ", ")));
     }
     std::string text(const toml::table& table, const char* key, bool required = true) {
@@ -114,7 +114,7 @@ public:
         double sum = 0;
         for (const auto& [key, weight] : *at) {
             if (!names.contains(key.str()))
-                error(weight, fmt::format("unknown landmark {}; known: {}", geometry::in_quotes(key.str()),
+                error(weight, fmt::format("unknown landmark {}; known: {}", base::in_quotes(key.str()),
                                           fmt::join(names, ", ")));
             place.at.emplace_back(std::string(key.str()), number(weight, "a weight"));
             if (std::abs(place.at.back().second) > largest_weight)
@@ -185,7 +185,7 @@ struct Parsed {
 void check_place(Reader& reader, const toml::table& entry, const CataloguePoint& point,
                  std::vector<std::pair<std::string, geometry::Point>>& placed) {
     const auto& marks = reference_landmarks();
-    const auto shown_name = geometry::in_quotes(point.name);
+    const auto shown_name = base::in_quotes(point.name);
     const geometry::Point p = place(point.placement, marks, database::Side::left);
     const bool central = point.placement.lateral == 0.0 &&
                          std::all_of(point.placement.at.begin(), point.placement.at.end(),
@@ -226,9 +226,9 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
     unit.name = reader.text(table, "name");
     const auto region = reader.text(table, "region"), sides = reader.text(table, "sides");
     if (region != "upper" && region != "lower")
-        reader.error(table, fmt::format("region {} is neither upper nor lower", geometry::in_quotes(region)));
+        reader.error(table, fmt::format("region {} is neither upper nor lower", base::in_quotes(region)));
     if (sides != "paired" && sides != "central")
-        reader.error(table, fmt::format("sides {} is neither paired nor central", geometry::in_quotes(sides)));
+        reader.error(table, fmt::format("sides {} is neither paired nor central", base::in_quotes(sides)));
     unit.lower_face = region != "upper";
     unit.central = sides == "central";
     unit.wrinkles = reader.text(table, "wrinkles", false);
@@ -249,7 +249,7 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
     reader.tables(table, "muscles", true, [&](const toml::table& entry) {
         reader.only_keys(entry, {"name", "source", "reference"});
         Muscle muscle{reader.text(entry, "name"), reader.text(entry, "source"), reader.text(entry, "reference")};
-        if (entry.get("reference") && geometry::trimmed(muscle.reference).empty())
+        if (entry.get("reference") && base::trimmed(muscle.reference).empty())
             reader.error(*entry.get("reference"),
                          fmt::format("the reference of '{}' is empty; say where its part in this AU was published",
                                      muscle.name));
@@ -274,7 +274,7 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
         point.name = reader.text(entry, "name");
         const auto kind = reader.text(entry, "kind");
         if (kind != "muscle" && kind != "wrinkle")
-            reader.error(entry, fmt::format("kind {} is neither muscle nor wrinkle", geometry::in_quotes(kind)));
+            reader.error(entry, fmt::format("kind {} is neither muscle nor wrinkle", base::in_quotes(kind)));
         point.kind = kind == "wrinkle" ? ControlKind::wrinkle : ControlKind::muscle;
         muscle_point = muscle_point || point.kind == ControlKind::muscle;
         const auto errors_before = reader.errors();
@@ -282,7 +282,7 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
         if (reader.errors() == errors_before) check_place(reader, entry, point, placed);
         if (!names.insert(point.name).second)
             reader.error(entry,
-                         fmt::format("point {} stands twice in AU{}", geometry::in_quotes(point.name), unit.number));
+                         fmt::format("point {} stands twice in AU{}", base::in_quotes(point.name), unit.number));
         unit.points.push_back(std::move(point));
     });
     if (!muscle_point) reader.error(table, fmt::format("AU{} has no muscle point", unit.number));
@@ -320,7 +320,7 @@ void read_document(Reader& reader, const toml::table& document, Parsed& parsed) 
         reader.only_keys(table, {"name", "units"});
         Emotion emotion{upper(reader.text(table, "name")), {}};
         if (!emotion.name.empty() && !emotions.insert(emotion.name).second)
-            reader.error(table, fmt::format("emotion {} stands twice", geometry::in_quotes(emotion.name)));
+            reader.error(table, fmt::format("emotion {} stands twice", base::in_quotes(emotion.name)));
         if (const auto* list = table["units"].as_array())
             for (const auto& item : *list) {
                 const auto number = reader.small_number(item, "units");
@@ -370,7 +370,7 @@ std::string_view to_string(ControlKind kind) {
 ControlKind parse_control_kind(const std::string& text) {
     for (const auto kind : {ControlKind::muscle, ControlKind::wrinkle, ControlKind::coverage, ControlKind::anchor})
         if (text == to_string(kind)) return kind;
-    throw InputError(fmt::format("kind {} is none of muscle, wrinkle, coverage, anchor", geometry::in_quotes(text)));
+    throw InputError(fmt::format("kind {} is none of muscle, wrinkle, coverage, anchor", base::in_quotes(text)));
 }
 
 namespace {
@@ -506,13 +506,13 @@ FacsCatalogue parse_catalogue(const std::string& text, const std::string& name) 
             errors += fmt::format("{}{}:{}: {}", errors.empty() ? "" : "; ", name, finding.line, finding.what);
     if (count > 5) errors += fmt::format("; and {} more ('mimik catalogue FILE --lint' lists all)", count - 5);
     if (count > 0) throw InputError(errors);
-    geometry::ContentHash hash;
+    base::ContentHash hash;
     hash.add(text);
     return {parsed.sampling, std::move(parsed.units), std::move(parsed.emotions), name, hash.text()};
 }
 
 FacsCatalogue read_catalogue(const std::filesystem::path& file) {
-    return parse_catalogue(geometry::read_text(file, 1 << 22), file.string());
+    return parse_catalogue(base::read_text(file, 1 << 22), file.string());
 }
 
 Selection parse_selection(const std::string& text) {

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "geometry/csv.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "geometry/point_index.h"
-#include "geometry/text.h"
+#include "base/text.h"
 #include "modeling/average_fingerprint.h"
 #include "preprocessing/nearest_on_average.h"
 
@@ -81,22 +81,22 @@ constexpr std::string_view schema = "1";
 
 /// What the comment of a label file names must be what is read here.
 void check_comment(const std::filesystem::path& file, const std::string& average_face) {
-    const auto text = geometry::read_text(file, 1 << 26);
-    geometry::LineReader lines(text, file.string());
+    const auto text = base::read_text(file, 1 << 26);
+    base::LineReader lines(text, file.string());
     if (!lines.next_not_blank() || !lines.line().starts_with(comment_begin)) return;
     const auto rest = lines.line().substr(comment_begin.size());
     const auto middle = rest.find(comment_middle);
-    const auto stated = geometry::trimmed(rest.substr(0, middle));
+    const auto stated = base::trimmed(rest.substr(0, middle));
     if (stated != schema)
         lines.fail(
-            fmt::format("schema is {}; this version of Mimik reads schema {}", geometry::in_quotes(stated), schema));
+            fmt::format("schema is {}; this version of Mimik reads schema {}", base::in_quotes(stated), schema));
     if (middle == std::string_view::npos) return;
-    const auto face = geometry::trimmed(rest.substr(middle + comment_middle.size()));
+    const auto face = base::trimmed(rest.substr(middle + comment_middle.size()));
     if (face != average_face)
         lines.fail(
             fmt::format("these are regions of average face {}, and the workspace has {}; draw them again with 'mimik "
                         "regions'",
-                        geometry::in_quotes(face), average_face));
+                        base::in_quotes(face), average_face));
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ std::string encode_region_labels(const RegionLabels& labels, const std::string& 
         for (int col = 0; col < labels.cols; ++col) {
             const auto& label = labels.label[static_cast<std::size_t>(row) * static_cast<std::size_t>(labels.cols) +
                                              static_cast<std::size_t>(col)];
-            if (!label.empty()) text += fmt::format("{},{},{}\n", row, col, geometry::csv_field(label));
+            if (!label.empty()) text += fmt::format("{},{},{}\n", row, col, base::csv_field(label));
         }
     return text;
 }
@@ -118,7 +118,7 @@ RegionLabels read_region_labels(const std::filesystem::path& file, const preproc
 }
 
 RegionLabels decode_region_labels(std::string_view text, const std::string& name, int rows, int cols) {
-    geometry::CsvReader table(text, name);
+    base::CsvReader table(text, name);
     const auto row_column = table.column("row"), col_column = table.column("col"),
                region_column = table.column("region");
     RegionLabels labels{rows, cols,
@@ -135,7 +135,7 @@ RegionLabels decode_region_labels(std::string_view text, const std::string& name
 }
 
 RegionLabels read_region_labels(const std::filesystem::path& file, int rows, int cols) {
-    return decode_region_labels(geometry::read_text(file, 1 << 26), file.string(), rows, cols);
+    return decode_region_labels(base::read_text(file, 1 << 26), file.string(), rows, cols);
 }
 
 std::vector<std::string> listed_regions(const RegionLabels& labels, std::span<const std::string> lists) {
@@ -148,7 +148,7 @@ std::vector<std::string> listed_regions(const RegionLabels& labels, std::span<co
         }
         for (std::size_t begin = 0; begin <= list.size();) {
             const auto end = std::min(list.find(',', begin), list.size());
-            listed.emplace_back(geometry::trimmed(std::string_view(list).substr(begin, end - begin)));
+            listed.emplace_back(base::trimmed(std::string_view(list).substr(begin, end - begin)));
             begin = end + 1;
         }
     }

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "geometry/errors.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/parallel.h"
 
 namespace mimik::modeling {
 
@@ -87,7 +87,7 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
     for (std::size_t begin = 0; begin < ids.size(); begin += batch) {
         std::vector<std::optional<ExpressionModel>> measured(std::min(batch, ids.size() - begin));
         std::vector<std::string> fault(measured.size());
-        geometry::parallel_for(measured.size(), 1, [&](std::size_t first, std::size_t last) {
+        base::parallel_for(measured.size(), 1, [&](std::size_t first, std::size_t last) {
             for (std::size_t k = first; k < last; ++k) try {
                     measured[k] = gauge.measure(workspace.face(workspace.neutral(ids[begin + k].subject)),
                                                 workspace.face(ids[begin + k]));

@@ -9,10 +9,10 @@
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/json_values.h"
+#include "base/parallel.h"
 #include "geometry/surface_index.h"
 #include "preprocessing/control_pairs.h"
 #include "preprocessing/normalisation.h"
@@ -310,7 +310,7 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
         const std::size_t end = std::min(count, begin + batch);
         std::vector<std::vector<double>> depths(end - begin);
         std::vector<std::string> names(end - begin);
-        geometry::parallel_for(end - begin, 1, [&](std::size_t first, std::size_t last) {
+        base::parallel_for(end - begin, 1, [&](std::size_t first, std::size_t last) {
             for (std::size_t k = first; k < last; ++k) {
                 const Face face = load(begin + k);
                 names[k] = face.id.name();
@@ -389,20 +389,20 @@ void write_average_face(const std::filesystem::path& stem, const AverageFace& av
         {"cols", average.grid.cols},
         {"units", "mm"},
         {"frame", "average: nose tip at the origin, +x subject's left, +y up, +z out of the face"},
-        {"landmarks", geometry::to_json(average.landmarks)},
+        {"landmarks", io::to_json(average.landmarks)},
         {"scans", average.scans},
         {"consensus_rms_mm", average.consensus_rms_mm},
         {"fingerprint", fingerprint}};
-    geometry::write_atomically(json_file, geometry::json_text(document));
+    base::write_atomically(json_file, io::json_text(document));
 }
 
 AverageFace decode_average_face(std::string_view text, const std::string& name, std::string* fingerprint) {
-    return geometry::read_json_document(text, name, damaged_file_mend, [&](const nlohmann::json& document) {
+    return io::read_json_document(text, name, damaged_file_mend, [&](const nlohmann::json& document) {
         AverageFace average;
-        average.landmarks = geometry::landmarks_from_json(document, "landmarks");
-        average.scans = geometry::read_field<std::vector<std::string>>(document, "scans");
-        average.consensus_rms_mm = geometry::read_field<double>(document, "consensus_rms_mm");
-        if (fingerprint) *fingerprint = geometry::read_field<std::string>(document, "fingerprint");
+        average.landmarks = io::landmarks_from_json(document, "landmarks");
+        average.scans = io::read_field<std::vector<std::string>>(document, "scans");
+        average.consensus_rms_mm = io::read_field<double>(document, "consensus_rms_mm");
+        if (fingerprint) *fingerprint = io::read_field<std::string>(document, "fingerprint");
         average.grid = grid_size_from_json(document);
         return average;
     });
@@ -413,7 +413,7 @@ AverageFace read_average_face(const std::filesystem::path& stem, std::string* fi
     mesh_file += ".ply";
     json_file += ".json";
     auto average =
-        decode_average_face(geometry::read_text(json_file, geometry::most_json_bytes), json_file.string(), fingerprint);
+        decode_average_face(base::read_text(json_file, io::most_json_bytes), json_file.string(), fingerprint);
     average.grid = read_grid(mesh_file, average.grid.rows, average.grid.cols);
     return average;
 }

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "geometry/point_index.h"
 
 namespace mimik::preprocessing {

@@ -5,15 +5,15 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
-#include "geometry/mesh_io.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/json_values.h"
+#include "io/mesh_io.h"
 #include "preprocessing/workspace_json.h"
 
 namespace mimik::preprocessing {
 
-using geometry::read_field;
+using io::read_field;
 using geometry::VertexOrigin;
 using nlohmann::json;
 
@@ -48,7 +48,7 @@ void write_grid(const std::filesystem::path& file, const geometry::QuadGrid& gri
         origin.values.push_back(static_cast<double>(grid.origin[v]));
     }
     mesh.attributes.push_back(std::move(origin));
-    geometry::write_mesh(file, mesh);
+    io::write_mesh(file, mesh);
 }
 
 geometry::QuadGrid to_grid(geometry::Mesh mesh, int rows, int cols, const std::string& name) {
@@ -83,13 +83,13 @@ geometry::QuadGrid to_grid(geometry::Mesh mesh, int rows, int cols, const std::s
 }
 
 geometry::QuadGrid read_grid(const std::filesystem::path& file, int rows, int cols) {
-    return to_grid(geometry::read_mesh(file), rows, cols, file.string());
+    return to_grid(io::read_mesh(file), rows, cols, file.string());
 }
 
 geometry::QuadGrid grid_size_from_json(const json& document) {
     geometry::QuadGrid grid;
-    grid.rows = static_cast<int>(geometry::whole_number_below(most_grid_lines + 1, document.at("rows"), "rows"));
-    grid.cols = static_cast<int>(geometry::whole_number_below(most_grid_lines + 1, document.at("cols"), "cols"));
+    grid.rows = static_cast<int>(io::whole_number_below(most_grid_lines + 1, document.at("rows"), "rows"));
+    grid.cols = static_cast<int>(io::whole_number_below(most_grid_lines + 1, document.at("cols"), "cols"));
     return grid;
 }
 
@@ -105,30 +105,30 @@ void write_face(const std::filesystem::path& stem, const Face& face) {
         {"cols", face.grid.cols},
         {"units", "mm"},
         {"frame", "scanner: +x subject's left, +y up, +z out of the face"},
-        {"landmarks", geometry::to_json(face.landmarks)},
-        {"snapped_landmarks", geometry::to_json(face.snapped_landmarks)},
+        {"landmarks", io::to_json(face.landmarks)},
+        {"snapped_landmarks", io::to_json(face.snapped_landmarks)},
         {"texture_file", face.texture_file.string()},
-        {"neutral_from_scan", geometry::to_json(face.neutral_from_scan)},
-        {"average_from_scan", geometry::to_json(face.average_from_scan)},
-        {"average_from_scan_affine", geometry::to_json(face.average_from_scan_affine)},
+        {"neutral_from_scan", io::to_json(face.neutral_from_scan)},
+        {"average_from_scan", io::to_json(face.average_from_scan)},
+        {"average_from_scan_affine", io::to_json(face.average_from_scan_affine)},
         {"alignment_rms_mm", face.alignment_rms_mm},
         {"remarks", face.remarks},
     };
-    geometry::write_atomically(with_suffix(stem, ".json"), geometry::json_text(document));
+    base::write_atomically(with_suffix(stem, ".json"), io::json_text(document));
 }
 
 Face decode_face(std::string_view text, const std::string& name) {
-    return geometry::read_json_document(text, name, damaged_file_mend, [](const json& document) {
+    return io::read_json_document(text, name, damaged_file_mend, [](const json& document) {
         Face face;
         face.id = read_field(document, "scan",
                              [](const json& value) { return database::scan_id_from(value.get<std::string>()); });
         face.sex = read_field<std::string>(document, "sex");
-        face.landmarks = geometry::landmarks_from_json(document, "landmarks");
-        face.snapped_landmarks = geometry::landmarks_from_json(document, "snapped_landmarks");
+        face.landmarks = io::landmarks_from_json(document, "landmarks");
+        face.snapped_landmarks = io::landmarks_from_json(document, "snapped_landmarks");
         face.texture_file = read_field<std::string>(document, "texture_file");
-        face.neutral_from_scan = read_field(document, "neutral_from_scan", geometry::transform_from_json);
-        face.average_from_scan = read_field(document, "average_from_scan", geometry::transform_from_json);
-        face.average_from_scan_affine = read_field(document, "average_from_scan_affine", geometry::transform_from_json);
+        face.neutral_from_scan = read_field(document, "neutral_from_scan", io::transform_from_json);
+        face.average_from_scan = read_field(document, "average_from_scan", io::transform_from_json);
+        face.average_from_scan_affine = read_field(document, "average_from_scan_affine", io::transform_from_json);
         face.alignment_rms_mm = read_field<double>(document, "alignment_rms_mm");
         face.remarks = read_field<std::vector<std::string>>(document, "remarks");
         face.grid = grid_size_from_json(document);
@@ -138,7 +138,7 @@ Face decode_face(std::string_view text, const std::string& name) {
 
 Face read_face(const std::filesystem::path& stem) {
     const auto file = with_suffix(stem, ".json");
-    auto face = decode_face(geometry::read_text(file, geometry::most_json_bytes), file.string());
+    auto face = decode_face(base::read_text(file, io::most_json_bytes), file.string());
     face.grid = read_grid(with_suffix(stem, ".ply"), face.grid.rows, face.grid.cols);
     return face;
 }

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/errors.h"
+#include "base/file.h"
 
 namespace mimik::preprocessing {
 
@@ -45,7 +45,7 @@ std::vector<fs::path> files_named_in(std::string_view done) {
     return files;
 }
 
-std::string read_done(const fs::path& stem) { return geometry::read_text(with_suffix(stem, ".done"), 1 << 20); }
+std::string read_done(const fs::path& stem) { return base::read_text(with_suffix(stem, ".done"), 1 << 20); }
 
 }  // namespace
 
@@ -73,7 +73,7 @@ void write_finished(const fs::path& stem, const Face& face, const std::string& f
     std::error_code ignored;
     fs::remove(with_suffix(stem, ".done"), ignored);
     write_face(stem, face);
-    geometry::write_atomically(with_suffix(stem, ".done"), done_text(stem, fingerprint, looked_for));
+    base::write_atomically(with_suffix(stem, ".done"), done_text(stem, fingerprint, looked_for));
 }
 
 std::optional<Face> read_finished(const fs::path& stem, const std::string& fingerprint) {

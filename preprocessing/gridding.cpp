@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "geometry/delaunay.h"
-#include "geometry/errors.h"
+#include "base/errors.h"
 
 namespace mimik::preprocessing {
 namespace {

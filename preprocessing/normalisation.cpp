@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 
 namespace mimik::preprocessing {
 namespace {

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
-#include "geometry/landmark_io.h"
-#include "geometry/mesh_io.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/json_values.h"
+#include "io/landmark_io.h"
+#include "io/mesh_io.h"
+#include "base/parallel.h"
 
 namespace mimik::preprocessing {
 
@@ -42,7 +42,7 @@ public:
         if (!fs::is_regular_file(file(".done"), error)) return false;
         try {
             const auto expected = done_text();
-            return geometry::read_text(file(".done"), expected.size()) == expected;
+            return base::read_text(file(".done"), expected.size()) == expected;
         } catch (const InputError&) {
             return false;  // unreadable: drawn again
         }
@@ -53,7 +53,7 @@ public:
         remove();  // a sheet that shows other faces than there are is worse than none
         auto fault = draw(write_parts(), file(".png"));
         fs::remove_all(parts());
-        if (fault.empty()) geometry::write_atomically(file(".done"), done_text());
+        if (fault.empty()) base::write_atomically(file(".done"), done_text());
         return fault;
     }
 
@@ -74,7 +74,7 @@ private:
         auto text = fmt::format("sheet {} png {}\n", sheet_version, error ? 0 : bytes);
         for (const auto& id : scans_) {
             auto mark = workspace_.stem(id);
-            text += id.name() + " " + geometry::read_text(mark += ".done", most_mark_bytes);
+            text += id.name() + " " + base::read_text(mark += ".done", most_mark_bytes);
         }
         return text;
     }
@@ -111,13 +111,13 @@ private:
                 mesh.colours.push_back(measured ? measured_colour : bridged_colour);
             }
             if (id == first) centre_mm = 0.5 * (low + high);
-            geometry::write_mesh(parts() / (id.name() + ".ply"), mesh);
-            geometry::write_landmarks(parts() / (id.name() + ".csv"),
+            io::write_mesh(parts() / (id.name() + ".ply"), mesh);
+            io::write_landmarks(parts() / (id.name() + ".csv"),
                                       geometry::transformed(face.landmarks, face.neutral_from_scan));
             panels.push_back({{"mesh", id.name() + ".ply"},
                               {"landmarks", id.name() + ".csv"},
                               {"caption", caption(face, id == first)},
-                              {"centre_mm", geometry::to_json(centre_mm)}});
+                              {"centre_mm", io::to_json(centre_mm)}});
         }
         const nlohmann::ordered_json document = {
             {"schema", 1},
@@ -128,7 +128,7 @@ private:
             {"scale_bar_mm", 50},
             {"panels", panels}};
         auto description = parts() / "figure.json";
-        geometry::write_atomically(description, geometry::json_text(document));
+        base::write_atomically(description, io::json_text(document));
         return description;
     }
 
@@ -166,7 +166,7 @@ QualitySheetReport draw_quality_sheets(const Workspace& workspace, const DrawFig
     enum class Outcome { drawn, up_to_date, failed };
     std::vector<Outcome> outcomes(subjects.size(), Outcome::failed);
     std::vector<std::string> faults(subjects.size());
-    geometry::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
             try {
                 const Sheet sheet(workspace, subjects[s]);

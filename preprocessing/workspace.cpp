@@ -11,15 +11,15 @@
 #include <fmt/ranges.h>
 
 #include "database/hidden_subjects.h"
-#include "geometry/content_hash.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
-#include "geometry/output_folder.h"
-#include "geometry/parallel.h"
+#include "base/content_hash.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/json_values.h"
+#include "base/output_folder.h"
+#include "base/parallel.h"
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
-#include "geometry/text.h"
+#include "base/text.h"
 #include "preprocessing/control_pairs.h"
 #include "preprocessing/finished_face.h"
 #include "preprocessing/normalisation.h"
@@ -215,11 +215,11 @@ public:
     }
 
     PreprocessReport run() {
-        geometry::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        base::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t s = begin; s < end; ++s) grid_neutral(subjects_[s]);
         });
         prepare_average();
-        geometry::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        base::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t s = begin; s < end; ++s) tie_scans(subjects_[s]);
         });
         return finish();
@@ -230,7 +230,7 @@ public:
         for (auto& subject : subjects_) expect_neutral(subject);
         name_average();
         const bool average_there = read_average();
-        geometry::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        base::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t s = begin; s < end; ++s)
                 for (const auto* entry : subjects_[s].scans) {
                     if (!subjects_[s].neutral) break;  // left out
@@ -293,16 +293,16 @@ private:
         const auto file = root_ / "unallowed_subjects.txt";
         std::error_code error;
         const bool there = fs::exists(file, error);
-        auto text = there ? geometry::read_text(file) : std::string();
+        auto text = there ? base::read_text(file) : std::string();
         if (there && !text.starts_with(mark)) {
             std::vector<std::string> missing;
             for (const auto& subject : database_.hidden_subjects)
                 if (("\n" + text + "\n").find("\n" + subject + "\n") == std::string::npos) missing.push_back(subject);
             if (missing.empty()) return;
             if (!text.empty() && text.back() != '\n') text += '\n';
-            geometry::write_atomically(file, text + database::hidden_subjects_text(missing));
+            base::write_atomically(file, text + database::hidden_subjects_text(missing));
         } else if (!database_.hidden_subjects.empty())
-            geometry::write_atomically(file,
+            base::write_atomically(file,
                                        std::string(mark) + database::hidden_subjects_text(database_.hidden_subjects));
         else if (there && !fs::remove(file, error))
             throw InputError(fmt::format("{}: hides subjects whom the database shows and cannot be removed ({})",
@@ -359,7 +359,7 @@ private:
     /// What the average face is made from. @return the neutrals
     std::vector<const ScanEntry*> name_average() {
         std::vector<const ScanEntry*> neutrals;
-        geometry::ContentHash made_from;  // its length must not grow with the subjects: every mark repeats it
+        base::ContentHash made_from;  // its length must not grow with the subjects: every mark repeats it
         made_from.add(describe(options_) + " " + describe(options_.average));
         std::string first_reason = "no neutral scan";
         for (const auto& subject : subjects_) {
@@ -526,7 +526,7 @@ private:
                                          {"subjects_left_out", report.left_out},
                                          {"hidden_subjects", database_.hidden_subjects}};
         keep_hidden_list();
-        geometry::write_atomically(root_ / "workspace.json", geometry::json_text(document));
+        base::write_atomically(root_ / "workspace.json", io::json_text(document));
         remove_hidden_sheets(Workspace(root_));
         return report;
     }
@@ -577,7 +577,7 @@ PreprocessReport preprocess_database(const database::ScanDatabase& database, con
     options.check();
     check_workspace_place(database, root);
     DatabaseRun run(database, root, options, stable_region, progress);
-    geometry::check_takes_files(root);
+    base::check_takes_files(root);
     return run.run();
 }
 
@@ -616,12 +616,12 @@ void align_to_neutral(Face& face, const Face& neutral, const std::vector<char>& 
 }
 
 WorkspaceList decode_workspace(std::string_view text, const std::string& name) {
-    return geometry::read_json_document(text, name, damaged_file_mend, [](const nlohmann::json& document) {
+    return io::read_json_document(text, name, damaged_file_mend, [](const nlohmann::json& document) {
         WorkspaceList list;
-        list.database_root = geometry::read_field<std::string>(document, "database");
-        list.made_with_truth = document.contains("truth") && geometry::read_field<bool>(document, "truth");
-        list.hidden_subjects = geometry::read_field<std::vector<std::string>>(document, "hidden_subjects");
-        geometry::read_list(document, "scans", [&](const nlohmann::json& entry) {
+        list.database_root = io::read_field<std::string>(document, "database");
+        list.made_with_truth = document.contains("truth") && io::read_field<bool>(document, "truth");
+        list.hidden_subjects = io::read_field<std::vector<std::string>>(document, "hidden_subjects");
+        io::read_list(document, "scans", [&](const nlohmann::json& entry) {
             list.scans.push_back(database::scan_id_from(entry.get<std::string>()));
         });
         std::sort(list.scans.begin(), list.scans.end());
@@ -635,7 +635,7 @@ Workspace::Workspace(fs::path root) : root_(std::move(root)) {
         throw InputError(
             fmt::format("{}: no finished workspace there; make or finish one with 'mimik preprocess DB -o {}'",
                         root_.string(), root_.string()));
-    list_ = decode_workspace(geometry::read_text(file, geometry::most_json_bytes), file.string());
+    list_ = decode_workspace(base::read_text(file, io::most_json_bytes), file.string());
     // Who asked to be hidden since then is hidden at once, not from the next preprocessing on.
     for (const auto& folder : {list_.database_root, root_})
         for (auto& subject : database::hidden_subjects_of(folder, subjects(), database::KnownSubjects::some).subjects)
@@ -679,11 +679,11 @@ Face Workspace::face(const ScanId& id) const {
     const auto refuse = [&](const std::string& what) {
         throw InputError(fmt::format("{}.json: {}; run 'mimik preprocess' again", stem(id).string(), what));
     };
-    if (face.id != id) refuse(fmt::format("scan is {}", geometry::in_quotes(face.id.name())));
+    if (face.id != id) refuse(fmt::format("scan is {}", base::in_quotes(face.id.name())));
     // A workspace that came from elsewhere shall not reach other files.
     if (const auto& texture = face.texture_file;
         !texture.empty() && !inside(texture.lexically_normal(), database_root()))
-        refuse(fmt::format("texture_file {} does not lie in the database {}", geometry::in_quotes(texture.string()),
+        refuse(fmt::format("texture_file {} does not lie in the database {}", base::in_quotes(texture.string()),
                            database_root().string()));
     return face;
 }

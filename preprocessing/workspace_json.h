@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/json_values.h"
+#include "io/json_values.h"
 #include "geometry/quad_grid.h"
 
 // What the JSON files of a workspace share. For .cpp files only: the JSON library is a heavy header.

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "synthesis/builtin_muscles.h"
 #include "synthesis/builtin_surface.h"
 #include "synthesis/face_model.h"

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "synthesis/random_stream.h"
+#include "base/errors.h"
+#include "base/random_stream.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -85,7 +85,7 @@ constexpr double clip_sd = 2.5;
 std::span<const PopulationMeasurement> population_measurements() { return population; }
 
 std::vector<double> draw_scores(std::uint64_t seed, double spread) {
-    RandomStream chance(seed, "built-in/identity");
+    base::RandomStream chance(seed, "built-in/identity");
     const double size = chance.normal();
     std::array<double, 6> region{};
     for (auto& r : region) r = chance.normal();

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "geometry/parallel.h"
+#include "base/parallel.h"
 #include "synthesis/builtin_curves.h"
 
 namespace mimik::synthesis {
@@ -381,7 +381,7 @@ Profile solve_profile(const FaceNumbers& face) {
 std::vector<geometry::Point> build_neutral_mm(const Sheet& sheet, const FaceNumbers& face) {
     const PersonMap person(sheet, face);
     std::vector<geometry::Point> points(sheet.vertices.size());
-    geometry::parallel_for(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) points[i] = person(sheet.vertices[i]);
     });
     return points;

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "database/scan_id.h"
-#include "geometry/errors.h"
+#include "base/errors.h"
 
 namespace mimik::synthesis {
 namespace {

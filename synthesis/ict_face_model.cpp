@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/parallel.h"
 #include "synthesis/face_model.h"
 #include "synthesis/ict_obj.h"
-#include "synthesis/random_stream.h"
+#include "base/random_stream.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -53,7 +53,7 @@ constexpr std::array<std::uint32_t, 5> right_brow = {268, 493, 1914, 2044, 1401}
 constexpr std::array<std::uint32_t, 5> left_brow = {3615, 4240, 4114, 2734, 2509};
 
 std::vector<Point> read_vertices(const fs::path& file) {
-    return decode_ict_vertices(geometry::read_text_head(file, head_bytes), file.string(), skin_vertices);
+    return decode_ict_vertices(base::read_text_head(file, head_bytes), file.string(), skin_vertices);
 }
 
 bool inside_polygon(const Point& p, std::span<const Point> polygon) {
@@ -92,7 +92,7 @@ public:
     const std::vector<std::string>& vertex_regions() const override { return regions_; }
 
     Identity draw_identity(std::uint64_t seed, Sex sex, double spread) const override {
-        RandomStream random(seed);
+        base::RandomStream random(seed);
         Identity identity;
         identity.sex = sex;
         identity.seed = seed;
@@ -141,7 +141,7 @@ public:
 
 private:
     void read_topology(const fs::path& file) {
-        auto skin = decode_ict_skin(geometry::read_bytes(file, most_mesh_bytes), file.string(), skin_vertices);
+        auto skin = decode_ict_skin(base::read_bytes(file, most_mesh_bytes), file.string(), skin_vertices);
         mean_ = std::move(skin.vertices_mm);
         faces_ = std::move(skin.faces);
     }
@@ -162,7 +162,7 @@ private:
             return stem == "generic_neutral_mesh" || stem.starts_with("eyeLook") || stem.starts_with("PupilDilate");
         });
         std::vector<std::vector<Vector>> deltas(files.size());
-        geometry::parallel_for(files.size(), 1, [&](std::size_t begin, std::size_t end) {
+        base::parallel_for(files.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 deltas[i] = read_vertices(files[i]);
                 for (std::size_t v = 0; v < skin_vertices; ++v) deltas[i][v] -= mean_[v];
@@ -238,7 +238,7 @@ private:
 
 std::unique_ptr<FaceModel> load_ict_face_model(const std::string& folder) {
     for (const fs::path& candidate : {fs::path(folder), fs::path(folder) / "FaceXModel"})
-        if (geometry::is_there(candidate / "generic_neutral_mesh.obj"))
+        if (base::is_there(candidate / "generic_neutral_mesh.obj"))
             return std::make_unique<IctFaceModel>(candidate);
     throw InputError(
         fmt::format("{}: no generic_neutral_mesh.obj there or in FaceXModel below; give a clone of the public "

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/mesh_io.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "io/mesh_io.h"
+#include "base/text.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -22,7 +22,7 @@ void check_count(std::size_t vertices, std::size_t wanted, const std::string& na
 }  // namespace
 
 IctSkin decode_ict_skin(std::span<const std::uint8_t> bytes, const std::string& name, std::size_t wanted) {
-    auto mesh = geometry::decode_mesh(geometry::MeshFormat::obj, bytes, name, geometry::LengthUnit::centimetre).mesh;
+    auto mesh = io::decode_mesh(io::MeshFormat::obj, bytes, name, io::LengthUnit::centimetre).mesh;
     check_count(mesh.vertices_mm.size(), wanted, name);
     IctSkin skin;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
@@ -38,19 +38,19 @@ IctSkin decode_ict_skin(std::span<const std::uint8_t> bytes, const std::string& 
 
 std::vector<geometry::Point> decode_ict_vertices(std::string_view head, const std::string& name, std::size_t wanted) {
     // What follows the last line end may be half a line.
-    geometry::LineReader lines(head.substr(0, head.rfind('\n') + 1), name);
-    const double mm = geometry::millimetres_per(geometry::LengthUnit::centimetre);
+    base::LineReader lines(head.substr(0, head.rfind('\n') + 1), name);
+    const double mm = io::millimetres_per(io::LengthUnit::centimetre);
     std::vector<geometry::Point> vertices_mm;
     while (vertices_mm.size() < wanted && lines.next()) {
         std::string_view rest = lines.line();
-        if (geometry::next_word(rest) != "v") continue;
+        if (base::next_word(rest) != "v") continue;
         geometry::Point point;
         for (int axis = 0; axis < 3; ++axis) {
-            const auto word = geometry::next_word(rest);
-            const auto value = geometry::parse_double(word);
+            const auto word = base::next_word(rest);
+            const auto value = base::parse_double(word);
             if (!value || !std::isfinite(*value))
                 lines.fail(
-                    fmt::format("coordinate {} is {}, not a finite number", axis + 1, geometry::in_quotes(word)));
+                    fmt::format("coordinate {} is {}, not a finite number", axis + 1, base::in_quotes(word)));
             point[axis] = *value;
         }
         vertices_mm.push_back(mm * point);

@@ -6,7 +6,7 @@
 
 #include "synthesis/builtin_curves.h"
 #include "synthesis/depth_raster.h"
-#include "synthesis/random_stream.h"
+#include "base/random_stream.h"
 #include "synthesis/smooth_field.h"
 
 namespace mimik::synthesis {
@@ -20,7 +20,7 @@ struct Palette {
     Colour skin, lip, hair, iris;
 };
 
-Palette draw_palette(RandomStream random) {
+Palette draw_palette(base::RandomStream random) {
     const double dark = random.uniform(), tint = random.normal();
     Palette palette;
     palette.skin = Colour(236, 196, 172) * (1.0 - 0.3 * dark * dark) + Colour(4, -1, -4) * tint;
@@ -48,12 +48,12 @@ Colour eye_colour(const Eigen::Vector2d& offset, const Colour& iris) {
 
 Complexion draw_complexion(const FaceModel& model, const Subject& subject, const FaceWindow& window,
                            std::uint64_t seed) {
-    const Palette palette = draw_palette(RandomStream(seed, subject.name + "/palette"));
+    const Palette palette = draw_palette(base::RandomStream(seed, subject.name + "/palette"));
     Complexion complexion;
     complexion.hair = palette.hair;
     complexion.iris = palette.iris;
     // Colours belong to the skin: blotches and hairline are placed on the resting face and move with it.
-    const SmoothField blotches(stream_seed(seed, subject.name + "/blotches"), 2, 7.0, Point::Constant(-220),
+    const SmoothField blotches(base::stream_seed(seed, subject.name + "/blotches"), 2, 7.0, Point::Constant(-220),
                                Point::Constant(220));
     const auto& regions = model.vertex_regions();
     const double brow_height = subject.resting_mm[model.landmark_vertices().at("brow_middle_left")].y();
@@ -82,7 +82,7 @@ Complexion draw_complexion(const FaceModel& model, const Subject& subject, const
     return complexion;
 }
 
-geometry::Image photograph(const FaceModel& model, const Complexion& complexion, const std::vector<Point>& vertices_mm,
+io::Image photograph(const FaceModel& model, const Complexion& complexion, const std::vector<Point>& vertices_mm,
                            const SyntheticScan& scan, const ScannerOptions& options) {
     std::vector<Point> vertices(vertices_mm.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = scan.scanner_from_head * vertices_mm[i];
@@ -105,7 +105,7 @@ geometry::Image photograph(const FaceModel& model, const Complexion& complexion,
         0.5 * (vertices[marks.at("eye_outer_left")] + vertices[marks.at("eye_inner_left")]),
         0.5 * (vertices[marks.at("eye_outer_right")] + vertices[marks.at("eye_inner_right")])};
     const Vector light = Vector(0.25, 0.45, 0.86).normalized(), second_light = Vector(-0.6, 0.1, 0.79).normalized();
-    geometry::Image image;
+    io::Image image;
     image.width = lattice.cols;
     image.height = lattice.rows;
     image.rgb.resize(3 * hits.size());

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/image.h"
+#include "io/image.h"
 #include "synthesis/scanner.h"
 #include "synthesis/subject.h"
 
@@ -24,7 +24,7 @@ struct Complexion {
 /// The scanner's photograph of a face: an orthographic view along -z, lit from above the camera. The camera is that of
 /// scan.texture_coordinates.
 /// @param vertices_mm the surface in the head frame, as it was scanned
-[[nodiscard]] geometry::Image photograph(const FaceModel& model, const Complexion& complexion,
+[[nodiscard]] io::Image photograph(const FaceModel& model, const Complexion& complexion,
                                          const std::vector<geometry::Point>& vertices_mm, const SyntheticScan& scan,
                                          const ScannerOptions& options = {});
 

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "synthesis/depth_raster.h"
-#include "synthesis/random_stream.h"
+#include "base/random_stream.h"
 #include "synthesis/smooth_field.h"
 
 namespace mimik::synthesis {
@@ -24,7 +24,7 @@ void range(const char* field, double value, double low, double high) {
         throw InputError(fmt::format("{} is {}; give {} to {}", field, value, low, high));
 }
 
-geometry::Transform draw_pose(RandomStream random, const ScannerOptions& options) {
+geometry::Transform draw_pose(base::RandomStream random, const ScannerOptions& options) {
     const double degree = std::numbers::pi / 180.0;
     const double pitch = options.pitch_deg * degree * random.normal();
     const double yaw = options.yaw_deg * degree * random.normal();
@@ -65,7 +65,7 @@ double exceeded_on(double share) {
     return 0.5 * (low + high);
 }
 
-void add_spikes(geometry::RangeScan& scan, RandomStream random, int count) {
+void add_spikes(geometry::RangeScan& scan, base::RandomStream random, int count) {
     std::vector<std::size_t> valid;
     for (std::size_t i = 0; i < scan.points_mm.size(); ++i)
         if (scan.valid(i)) valid.push_back(i);
@@ -77,7 +77,7 @@ void add_spikes(geometry::RangeScan& scan, RandomStream random, int count) {
 }
 
 /// Round patches that lie behind the face and do not touch it, at the lower or side border of the lattice.
-void add_stray_parts(geometry::RangeScan& scan, const RasterLattice& lattice, RandomStream random, int count) {
+void add_stray_parts(geometry::RangeScan& scan, const RasterLattice& lattice, base::RandomStream random, int count) {
     double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < scan.points_mm.size(); ++i)
         if (scan.valid(i)) lowest = std::min(lowest, scan.points_mm[i].z());
@@ -150,7 +150,7 @@ geometry::Landmarks mark(const geometry::RangeScan& scan, const geometry::Landma
     constexpr double invisible_mm = 6.0;
     std::vector<geometry::Landmark> marks;
     for (const auto& landmark : truth.all()) {
-        RandomStream random(seed, fmt::format("{}/mark/{}", scan_name, landmark.name));
+        base::RandomStream random(seed, fmt::format("{}/mark/{}", scan_name, landmark.name));
         const Vector& normal = normals.at(landmark.name);
         const Vector across = normal.unitOrthogonal(), along = normal.cross(across);
         const double each = scale * marking_error_mm(landmark.name) / std::numbers::sqrt2;
@@ -226,7 +226,7 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
     options.check();
     const FaceWindow window = resting_window.following_chin(vertices_mm[model.landmark_vertices().at("chin")].y());
     SyntheticScan result;
-    result.scanner_from_head = draw_pose(RandomStream(seed, scan_name + "/pose"), options);
+    result.scanner_from_head = draw_pose(base::RandomStream(seed, scan_name + "/pose"), options);
     std::vector<Point> vertices(vertices_mm.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = result.scanner_from_head * vertices_mm[i];
     const auto triangles = geometry::triangulate(model.faces());
@@ -244,7 +244,7 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
 
     // The lattice covers the window with a rim of background, and stands anywhere against the head.
     const Point centre = result.scanner_from_head * window.centre_mm;
-    RandomStream phase(seed, scan_name + "/lattice");
+    base::RandomStream phase(seed, scan_name + "/lattice");
     const double rim_mm = 6.0;
     RasterLattice lattice;
     lattice.spacing_mm = options.spacing_mm;
@@ -267,10 +267,10 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
     scan.texture_coordinates.assign(hits.size(), geometry::TextureCoordinate::Zero());
 
     const Point low(lattice.x0_mm, lattice.y0_mm, 0), high(lattice.x0_mm + width_mm, lattice.y0_mm + height_mm, 0);
-    const SmoothField smooth(stream_seed(seed, scan_name + "/smooth_noise"), 1, options.smooth_noise_length_mm, low,
+    const SmoothField smooth(base::stream_seed(seed, scan_name + "/smooth_noise"), 1, options.smooth_noise_length_mm, low,
                              high);
-    const SmoothField patches(stream_seed(seed, scan_name + "/holes"), 1, 1.6, low, high);
-    const SmoothField border(stream_seed(seed, scan_name + "/border"), 1, 9.0, low, high);
+    const SmoothField patches(base::stream_seed(seed, scan_name + "/holes"), 1, 1.6, low, high);
+    const SmoothField border(base::stream_seed(seed, scan_name + "/border"), 1, 9.0, low, high);
     std::map<std::string, double> by_region;
     std::vector<double> thresholds;
     for (const auto& region : model.vertex_regions()) {
@@ -279,7 +279,7 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
         thresholds.push_back(entry->second);
     }
     const auto head_from_scanner = result.scanner_from_head.inverse();
-    RandomStream noise(seed, scan_name + "/noise");
+    base::RandomStream noise(seed, scan_name + "/noise");
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const auto& hit = hits[i];
         // Drawn for every cell, so that a hole more or less leaves the other cells' noise as it was.
@@ -318,8 +318,8 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
         trim_neck(scan, lattice, vertices[marks.at("lower_lip_outer")].y(), vertices[marks.at("chin")]);
     // Marked on the clean scan: nobody puts a mark on a spike or on a piece of cloth.
     result.landmarks = mark(scan, result.true_landmarks, landmark_normals, scan_name, seed, options.marking_jitter);
-    add_spikes(scan, RandomStream(seed, scan_name + "/spikes"), options.spikes);
-    add_stray_parts(scan, lattice, RandomStream(seed, scan_name + "/stray"), options.stray_parts);
+    add_spikes(scan, base::RandomStream(seed, scan_name + "/spikes"), options.spikes);
+    add_stray_parts(scan, lattice, base::RandomStream(seed, scan_name + "/stray"), options.stray_parts);
 
     for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
         if (!scan.valid(i)) continue;

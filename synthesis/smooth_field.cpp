@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/errors.h"
-#include "synthesis/random_stream.h"
+#include "base/errors.h"
+#include "base/random_stream.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -41,7 +41,7 @@ SmoothField::SmoothField(std::uint64_t seed, int components, double length_mm, c
         count *= static_cast<std::size_t>(size_[static_cast<std::size_t>(axis)]);
     }
     if (count > 50'000'000) throw InputError("smooth field: the correlation length is too short for the box");
-    RandomStream random(seed);
+    base::RandomStream random(seed);
     coefficients_.resize(count);
     for (double& c : coefficients_) c = random.normal();
     if (low_mm.z() != high_mm.z()) return;

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "synthesis/random_stream.h"
+#include "base/errors.h"
+#include "base/random_stream.h"
 #include "synthesis/smooth_field.h"
 
 namespace mimik::synthesis {
@@ -27,7 +27,7 @@ constexpr double most_motion = 1.2;
 /// As many deviations as a face can follow (VarianceOptions).
 double clipped(double standard_normal) { return std::clamp(standard_normal, -2.0, 2.0); }
 /// Median 1, `deviation` in natural logarithms (0.15 is close to 15 %).
-double clipped_log_normal(RandomStream& random, double deviation) {
+double clipped_log_normal(base::RandomStream& random, double deviation) {
     return std::exp(deviation * clipped(random.normal()));
 }
 
@@ -79,11 +79,11 @@ Subject draw_subject(const FaceModel& model, const std::string& name, std::uint6
     options.check();
     Subject subject;
     subject.name = name;
-    const Sex sex = RandomStream(seed, name + "/sex").uniform() < 0.5 ? Sex::female : Sex::male;
+    const Sex sex = base::RandomStream(seed, name + "/sex").uniform() < 0.5 ? Sex::female : Sex::male;
     subject.model = &model;
-    subject.identity = model.draw_identity(stream_seed(seed, name + "/identity"), sex, options.identity);
+    subject.identity = model.draw_identity(base::stream_seed(seed, name + "/identity"), sex, options.identity);
     subject.resting_mm = model.neutral_mm(subject.identity);
-    RandomStream person(seed, name + "/person");
+    base::RandomStream person(seed, name + "/person");
     subject.amplitude = clipped_log_normal(person, options.amplitude_person);
     subject.asymmetry = options.asymmetry_person * clipped(person.normal());
 
@@ -104,8 +104,8 @@ Performance perform(const Subject& subject, const Expression& expression, const 
                     std::uint64_t seed, const VarianceOptions& options) {
     options.check();
     Performance result;
-    RandomStream amplitude(seed, scan_name + "/amplitude");
-    RandomStream asymmetry(seed, scan_name + "/asymmetry");
+    base::RandomStream amplitude(seed, scan_name + "/amplitude");
+    base::RandomStream asymmetry(seed, scan_name + "/asymmetry");
     result.amplitude = subject.amplitude * clipped_log_normal(amplitude, options.amplitude_performance);
     result.asymmetry = subject.asymmetry + options.asymmetry_performance * clipped(asymmetry.normal());
 
@@ -115,7 +115,7 @@ Performance perform(const Subject& subject, const Expression& expression, const 
     for (const auto& part : expression.main_shapes) {
         if (!std::binary_search(subject.shapes.begin(), subject.shapes.end(), part.shape))
             throw InputError(fmt::format("{}: the face model has no shape '{}'", scan_name, part.shape));
-        RandomStream random(seed, fmt::format("{}/shape/{}", scan_name, part.shape));
+        base::RandomStream random(seed, fmt::format("{}/shape/{}", scan_name, part.shape));
         result.weights[part.shape] +=
             part.weight * result.amplitude * side_factor(part.shape) * clipped_log_normal(random, options.shape);
     }
@@ -124,7 +124,7 @@ Performance perform(const Subject& subject, const Expression& expression, const 
         // Both sides of a co-activated shape are driven together; the asymmetry makes the difference.
         std::string stem = part.shape;
         if (stem.ends_with("_L") || stem.ends_with("_R")) stem.resize(stem.size() - 2);
-        RandomStream random(seed, fmt::format("{}/co/{}", scan_name, stem));
+        base::RandomStream random(seed, fmt::format("{}/co/{}", scan_name, stem));
         const double drawn = options.co_activation * part.weight +
                              options.co_activation_spread * part.deviation * clipped(random.normal());
         result.weights[part.shape] += std::max(0.0, drawn) * result.amplitude * side_factor(part.shape);
@@ -142,11 +142,11 @@ Performance perform(const Subject& subject, const Expression& expression, const 
         const auto& full = displacements(shape);
         for (std::size_t i = 0; i < vertices; ++i) result.displacement_mm[i] += scaled * full[i];
     }
-    distort(result.displacement_mm, subject.resting_mm, stream_seed(seed, scan_name + "/field"), options);
+    distort(result.displacement_mm, subject.resting_mm, base::stream_seed(seed, scan_name + "/field"), options);
 
     if (options.micro_expression > 0) {
         for (std::size_t s = 0; s < subject.shapes.size(); ++s) {
-            RandomStream random(seed, fmt::format("{}/micro/{}", scan_name, subject.shapes[s]));
+            base::RandomStream random(seed, fmt::format("{}/micro/{}", scan_name, subject.shapes[s]));
             const double weight = options.micro_expression * clipped(random.normal());
             for (std::size_t i = 0; i < vertices; ++i)
                 result.displacement_mm[i] += weight * subject.shape_displacements_mm[s][i];

@@ -13,10 +13,10 @@
 #include "database/bnt.h"
 #include "database/bosphorus_landmarks.h"
 #include "database/scan_id.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/image.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/image.h"
+#include "base/parallel.h"
 #include "synthesis/photograph.h"
 #include "synthesis/truth.h"
 
@@ -144,7 +144,7 @@ std::string make_scan(const fs::path& folder, const FaceModel& model, const Subj
     const fs::path stem = folder / subject.name / name;
     made.scan.texture_file = name + ".png";
     const auto labelled = database::to_bosphorus_labels(made.landmarks);
-    geometry::write_png(fs::path(stem).concat(".png"), image);
+    io::write_png(fs::path(stem).concat(".png"), image);
     database::write_bnt(fs::path(stem).concat(".bnt"), database::to_bnt(made.scan));
     database::write_lm3(fs::path(stem).concat(".lm3"), labelled);
     database::write_lm2(fs::path(stem).concat(".lm2"),
@@ -180,7 +180,7 @@ MadeSubject make_subject(const fs::path& folder, const FaceModel& model, const s
     const FaceWindow window = face_window(model, subject.resting_mm);
     const Complexion complexion = draw_complexion(model, subject, window, options.seed);
     std::vector<std::string> lines(tasks.size());
-    geometry::parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t)
             lines[t] = make_scan(folder, model, subject, complexion, tasks[t], window, options, report);
     });
@@ -322,7 +322,7 @@ SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model
     // the scans are spread over all of them.
     constexpr std::size_t most_at_a_time = 8;
     for (std::size_t first = 0; first < subjects.size(); first += most_at_a_time)
-        geometry::parallel_for(
+        base::parallel_for(
             std::min(most_at_a_time, subjects.size() - first), 1, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t s = first + begin; s < first + end; ++s)
                     subjects[s] =
@@ -349,9 +349,9 @@ SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model
                         {"face_model", model_json(model)},
                         {"subjects", subject_list},
                         {"scans", scan_list}};
-    geometry::write_atomically(folder / "truth" / "truth.json", truth.dump() + "\n");
-    geometry::write_atomically(folder / "subjects.csv", sexes);
-    if (options.facs_codes) geometry::write_atomically(folder / "facscodes.lst", facs);
+    base::write_atomically(folder / "truth" / "truth.json", truth.dump() + "\n");
+    base::write_atomically(folder / "subjects.csv", sexes);
+    if (options.facs_codes) base::write_atomically(folder / "facscodes.lst", facs);
     for (const auto& entry : fs::recursive_directory_iterator(folder))
         if (entry.is_regular_file()) report.bytes += entry.file_size();
     unfinished.finish();

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/json_values.h"
-#include "geometry/mesh_io.h"
-#include "geometry/text.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/json_values.h"
+#include "io/mesh_io.h"
+#include "base/text.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -36,30 +36,30 @@ std::vector<geometry::Point> TrueScan::head_vertices_mm() const {
 
 Truth open_truth(const fs::path& database_root) {
     const fs::path file = database_root / "truth" / "truth.json";
-    if (!geometry::is_there(file))
+    if (!base::is_there(file))
         throw InputError(
             fmt::format("{}: missing; only a database made by 'mimik synthesize' has a known truth", file.string()));
-    auto truth = decode_truth(geometry::read_text(file, geometry::most_json_bytes), file.string());
+    auto truth = decode_truth(base::read_text(file, io::most_json_bytes), file.string());
     truth.root = database_root;
     return truth;
 }
 
 Truth decode_truth(std::string_view text, const std::string& name) {
-    return geometry::read_json_document(text, name, mend, [&](const json& document) {
+    return io::read_json_document(text, name, mend, [&](const json& document) {
         Truth truth;
-        truth.seed = geometry::read_field(document, "seed", [](const json& value) {
+        truth.seed = io::read_field(document, "seed", [](const json& value) {
             if (!value.is_number_unsigned())
-                throw InputError(geometry::shown(value) + " is no whole number of 0 or more");
+                throw InputError(io::shown(value) + " is no whole number of 0 or more");
             return value.get<std::uint64_t>();
         });
         if (document.contains("variances"))
-            truth.variances = geometry::read_field<std::map<std::string, double>>(document, "variances");
+            truth.variances = io::read_field<std::map<std::string, double>>(document, "variances");
         const auto& model = document.at("face_model");
-        truth.face_model = geometry::read_field<std::string>(model, "name");
+        truth.face_model = io::read_field<std::string>(model, "name");
         const auto vertices =
-            geometry::whole_number_below(max_vertices + 1, model.at("vertices"), "face_model.vertices");
+            io::whole_number_below(max_vertices + 1, model.at("vertices"), "face_model.vertices");
         const auto vertex = [&](const json& value, const char* field) {
-            return static_cast<std::uint32_t>(geometry::whole_number_below(vertices, value, field));
+            return static_cast<std::uint32_t>(io::whole_number_below(vertices, value, field));
         };
         std::vector<std::uint32_t> corners;
         for (const auto& face : model.at("faces")) {
@@ -74,19 +74,19 @@ Truth decode_truth(std::string_view text, const std::string& name) {
         for (const auto& [region, members] : model.at("regions").items()) {
             if (region.size() > longest_region_name)  // every vertex may have a copy
                 throw InputError(fmt::format("the name {} in face_model.regions has {} letters, more than {}; {}",
-                                             geometry::in_quotes(region), region.size(), longest_region_name, mend));
+                                             base::in_quotes(region), region.size(), longest_region_name, mend));
             for (const auto& member : members)
                 truth.vertex_regions[vertex(member, "a vertex in face_model.regions")] = region;
         }
         for (const auto& [landmark, value] : model.at("landmark_vertices").items())
             truth.landmark_vertices[landmark] = vertex(value, "a vertex in face_model.landmark_vertices");
-        geometry::read_list(document, "subjects", [&](const json& entry) {
+        io::read_list(document, "subjects", [&](const json& entry) {
             truth.subjects.push_back(
-                {geometry::read_field<std::string>(entry, "name"), geometry::read_field<std::string>(entry, "sex"),
-                 geometry::read_field<double>(entry, "amplitude"), geometry::read_field<double>(entry, "asymmetry"),
-                 geometry::read_field<std::map<std::string, double>>(entry, "measurements_mm")});
+                {io::read_field<std::string>(entry, "name"), io::read_field<std::string>(entry, "sex"),
+                 io::read_field<double>(entry, "amplitude"), io::read_field<double>(entry, "asymmetry"),
+                 io::read_field<std::map<std::string, double>>(entry, "measurements_mm")});
         });
-        geometry::read_list(document, "scans", [&](const json& entry) {
+        io::read_list(document, "scans", [&](const json& entry) {
             truth.scans.push_back(database::scan_id_from(entry.get<std::string>()));
         });
         return truth;
@@ -94,24 +94,24 @@ Truth decode_truth(std::string_view text, const std::string& name) {
 }
 
 TrueScan decode_true_scan(std::string_view text, const std::string& name) {
-    return geometry::read_json_document(text, name, mend, [&](const json& document) {
+    return io::read_json_document(text, name, mend, [&](const json& document) {
         TrueScan scan;
-        scan.id = geometry::read_field(
+        scan.id = io::read_field(
             document, "scan", [](const json& value) { return database::scan_id_from(value.get<std::string>()); });
-        scan.scanner_from_head = geometry::read_field(document, "scanner_from_head", geometry::transform_from_json);
-        scan.landmarks = geometry::read_field(document, "landmarks", [](const json& positions) {
+        scan.scanner_from_head = io::read_field(document, "scanner_from_head", io::transform_from_json);
+        scan.landmarks = io::read_field(document, "landmarks", [](const json& positions) {
             std::vector<geometry::Landmark> marks;
             for (const auto name_of_mark : geometry::standard_landmark_names()) {
                 const std::string mark(name_of_mark);
                 if (positions.contains(mark))
                     marks.push_back(
-                        {mark, geometry::read_field(positions, mark.c_str(), geometry::vector_from_json), ""});
+                        {mark, io::read_field(positions, mark.c_str(), io::vector_from_json), ""});
             }
             return geometry::Landmarks(std::move(marks));
         });
-        scan.shape_weights = geometry::read_field<std::map<std::string, double>>(document, "shape_weights");
-        scan.amplitude = geometry::read_field<double>(document, "amplitude");
-        scan.asymmetry = geometry::read_field<double>(document, "asymmetry");
+        scan.shape_weights = io::read_field<std::map<std::string, double>>(document, "shape_weights");
+        scan.amplitude = io::read_field<double>(document, "amplitude");
+        scan.asymmetry = io::read_field<double>(document, "asymmetry");
         return scan;
     });
 }
@@ -122,10 +122,10 @@ TrueScan load_true_scan(const Truth& truth, const database::ScanId& id) {
             fmt::format("{}: the truth has no scan {}", (truth.root / "truth" / "truth.json").string(), id.name()));
     const fs::path stem = truth.root / "truth" / id.subject / id.name();
     const fs::path mesh_file = fs::path(stem).concat(".ply"), file = fs::path(stem).concat(".json");
-    auto scan = decode_true_scan(geometry::read_text(file, geometry::most_json_bytes), file.string());
+    auto scan = decode_true_scan(base::read_text(file, io::most_json_bytes), file.string());
     if (scan.id != id)
         throw InputError(fmt::format("{}: scan is {}, not {}; {}", file.string(), scan.id.name(), id.name(), mend));
-    auto mesh = geometry::read_mesh(mesh_file);
+    auto mesh = io::read_mesh(mesh_file);
     if (mesh.vertices_mm.size() != truth.vertex_regions.size())
         throw InputError(fmt::format("{}: {} vertices, truth.json says {}; {}", mesh_file.string(),
                                      mesh.vertices_mm.size(), truth.vertex_regions.size(), mend));
@@ -154,19 +154,19 @@ void write_true_scan(const fs::path& truth_folder, const TrueScan& scan) {
     for (const auto& d : scan.displacement_mm)
         displacement.values.insert(displacement.values.end(), {d.x(), d.y(), d.z()});
     mesh.attributes.push_back(std::move(displacement));
-    geometry::write_mesh(fs::path(stem).concat(".ply"), mesh);
+    io::write_mesh(fs::path(stem).concat(".ply"), mesh);
 
     json landmarks = json::object();
-    for (const auto& mark : scan.landmarks.all()) landmarks[mark.name] = geometry::to_json(mark.position_mm);
+    for (const auto& mark : scan.landmarks.all()) landmarks[mark.name] = io::to_json(mark.position_mm);
     const json document = {{"schema", 1},
                            {"scan", scan.id.name()},
                            {"frame", "scanner; mm; +x subject's left, +y up, +z out of the face"},
-                           {"scanner_from_head", geometry::to_json(scan.scanner_from_head)},
+                           {"scanner_from_head", io::to_json(scan.scanner_from_head)},
                            {"landmarks", landmarks},
                            {"shape_weights", scan.shape_weights},
                            {"amplitude", scan.amplitude},
                            {"asymmetry", scan.asymmetry}};
-    geometry::write_atomically(fs::path(stem).concat(".json"), geometry::json_text(document));
+    base::write_atomically(fs::path(stem).concat(".json"), io::json_text(document));
 }
 
 }  // namespace mimik::synthesis

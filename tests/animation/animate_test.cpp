@@ -11,11 +11,11 @@
 #include <nlohmann/json.hpp>
 
 #include "animation/face_export.h"
-#include "geometry/csv.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/image.h"
-#include "geometry/mesh_io.h"
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/image.h"
+#include "io/mesh_io.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
 #include "tests/support/dense_spline.h"
@@ -454,7 +454,7 @@ TEST_F(Animate, in_the_average_frame_positions_and_displacements_turn_alike) {
 
 /// What a viewer reads of a GLB: its description, and the floats of an accessor.
 struct ReadGlb {
-    explicit ReadGlb(const std::filesystem::path& file) : bytes(geometry::read_bytes(file)) {
+    explicit ReadGlb(const std::filesystem::path& file) : bytes(base::read_bytes(file)) {
         std::uint32_t length = 0;
         std::memcpy(&length, bytes.data() + 12, 4);
         json = nlohmann::json::parse(bytes.begin() + 20, bytes.begin() + 20 + length);
@@ -504,9 +504,9 @@ TEST_F(Animate, every_format_says_of_each_vertex_how_it_moved_and_what_was_measu
         EXPECT_EQ(vertex_values_file(obj), table);
         EXPECT_THAT(write_animated_face(obj, animated, target, names, {}, options),
                     testing::ElementsAre(HasSubstr(table.string())));
-        const auto text = geometry::read_text(table);
-        geometry::CsvReader rows(text, table.string());
-        EXPECT_EQ(geometry::read_mesh(obj).vertices_mm.size(), mesh.vertices_mm.size());
+        const auto text = base::read_text(table);
+        base::CsvReader rows(text, table.string());
+        EXPECT_EQ(io::read_mesh(obj).vertices_mm.size(), mesh.vertices_mm.size());
         const std::array columns = {rows.column("displacement_mm_x"), rows.column("displacement_mm_y"),
                                     rows.column("displacement_mm_z")};
         for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
@@ -586,21 +586,21 @@ TEST_F(Animate, a_parallel_resultant_is_one_morph_target_and_a_remark_says_so) {
 
 TEST_F(Animate, a_picture_beside_the_face_is_not_overwritten_by_its_texture) {
     const database::TemporaryFolder folder;
-    geometry::write_atomically(folder.path() / "face.png", "picture");
-    geometry::write_png(folder.path() / "scan.png", {1, 1, {10, 20, 30}});
+    base::write_atomically(folder.path() / "face.png", "picture");
+    io::write_png(folder.path() / "scan.png", {1, 1, {10, 20, 30}});
     const auto model = smile();
     const TargetFace target(target_->neutral, modeling::Frame::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     write_animated_face(folder.path() / "face.ply", animated, target, {}, folder.path() / "scan.png");
-    EXPECT_EQ(geometry::read_text(folder.path() / "face.png"), "picture");
-    EXPECT_EQ(geometry::read_text(folder.path() / "face_texture.png"), geometry::read_text(folder.path() / "scan.png"));
-    EXPECT_THAT(geometry::read_text(folder.path() / "face.ply").substr(0, 400), HasSubstr("face_texture.png"));
+    EXPECT_EQ(base::read_text(folder.path() / "face.png"), "picture");
+    EXPECT_EQ(base::read_text(folder.path() / "face_texture.png"), base::read_text(folder.path() / "scan.png"));
+    EXPECT_THAT(base::read_text(folder.path() / "face.ply").substr(0, 400), HasSubstr("face_texture.png"));
 }
 
 TEST_F(Animate, a_texture_that_is_no_picture_is_not_handed_on) {
     const database::TemporaryFolder folder;
-    geometry::write_atomically(folder.path() / "key.png", "a text that is nobody's business");
+    base::write_atomically(folder.path() / "key.png", "a text that is nobody's business");
     const auto model = smile();
     const TargetFace target(target_->neutral, modeling::Frame::similarity);
     const WeightedExpression weighted{&model, 1.0};

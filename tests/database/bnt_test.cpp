@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "tests/database/temporary_folder.h"
 
 namespace mimik::database {
@@ -66,7 +66,7 @@ TEST(Bnt, a_file_has_the_bytes_of_the_description) {
     const TemporaryFolder folder;
     const auto file = folder.path() / "bs000_N_N_0.bnt";
     write_bnt(file, small_scan());
-    EXPECT_EQ(geometry::read_bytes(file), small_scan_bytes());
+    EXPECT_EQ(base::read_bytes(file), small_scan_bytes());
 }
 
 TEST(Bnt, what_is_read_and_written_again_is_the_same_file_bit_by_bit) {
@@ -75,9 +75,9 @@ TEST(Bnt, what_is_read_and_written_again_is_the_same_file_bit_by_bit) {
     bytes = with(bytes, 14 + 15 + 4, 0x7ff4dead0000beefULL);  // a NaN with a payload, which must survive
     bytes = with(bytes, 14 + 15 + 4 + 8, -0.0);
     const auto file = folder.path() / "a.bnt", copy = folder.path() / "b.bnt";
-    geometry::write_atomically(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    base::write_atomically(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     write_bnt(copy, read_bnt(file));
-    EXPECT_EQ(geometry::read_bytes(copy), bytes);
+    EXPECT_EQ(base::read_bytes(copy), bytes);
 }
 
 TEST(Bnt, a_texture_name_longer_than_one_read_of_the_header_comes_back_whole) {
@@ -95,7 +95,7 @@ TEST(Bnt, reading_a_file_and_decoding_its_bytes_agree) {
     const TemporaryFolder folder;
     const auto file = folder.path() / "a.bnt";
     write_bnt(file, small_scan());
-    const Bnt read = read_bnt(file), decoded = decode_bnt(geometry::read_bytes(file), "a");
+    const Bnt read = read_bnt(file), decoded = decode_bnt(base::read_bytes(file), "a");
     EXPECT_EQ(read.x, decoded.x);
     EXPECT_EQ(read.v, decoded.v);
     EXPECT_EQ(read.texture_file, decoded.texture_file);
@@ -114,7 +114,7 @@ TEST(Bnt, a_truncated_file_is_refused_by_name) {
     const TemporaryFolder folder;
     const auto bytes = small_scan_bytes();
     const auto file = folder.path() / "cut.bnt";
-    geometry::write_atomically(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size() - 8));
+    base::write_atomically(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size() - 8));
     EXPECT_THAT(message_of<InputError>([&] { (void)read_bnt(file); }),
                 HasSubstr("cut.bnt: has 505 bytes, its header promises 513"));
     EXPECT_THAT(message_of<InputError>([&] { (void)read_bnt(folder.path() / "none.bnt"); }),
@@ -198,12 +198,12 @@ TEST(BntScan, a_coordinate_further_than_a_kilometre_is_refused_with_its_cell_and
     Bnt far = small_scan();
     far.x[6] = 1e6;
     EXPECT_TRUE(to_range_scan(far, "made.bnt").valid(6));
-    EXPECT_THAT(message_of<InputError>([&] { (void)to_range_scan(far, "made.bnt", geometry::LengthUnit::centimetre); }),
+    EXPECT_THAT(message_of<InputError>([&] { (void)to_range_scan(far, "made.bnt", io::LengthUnit::centimetre); }),
                 HasSubstr("x of row 1, column 2 is 1e+07 mm"));
 }
 
 TEST(BntScan, a_unit_scales_every_point) {
-    const auto scan = to_range_scan(small_scan(), "made.bnt", geometry::LengthUnit::centimetre);
+    const auto scan = to_range_scan(small_scan(), "made.bnt", io::LengthUnit::centimetre);
     const auto same = to_range_scan(small_scan(), "made.bnt");
     for (const std::size_t i : {0, 2, 11}) EXPECT_EQ(scan.points_mm[i], 10 * same.points_mm[i]) << i;
 }

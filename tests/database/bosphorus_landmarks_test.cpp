@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "tests/database/temporary_folder.h"
 
 namespace mimik::database {
@@ -64,7 +64,7 @@ TEST(Lm3, what_is_written_is_read_back_bit_exact) {
 TEST(Lm3, a_written_file_has_the_lines_that_other_readers_count_on) {
     const TemporaryFolder folder;
     write_lm3(folder.path() / "a.lm3", geometry::Landmarks({{"Nose tip", {1, 2.5, -3}, ""}}));
-    EXPECT_EQ(geometry::read_text(folder.path() / "a.lm3"),
+    EXPECT_EQ(base::read_text(folder.path() / "a.lm3"),
               "# 3D landmarks, millimetres\n\n1 landmarks:\nNose tip\n1 2.5 -3\n");
 }
 

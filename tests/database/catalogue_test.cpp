@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
-#include "geometry/file.h"
+#include "base/file.h"
 #include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
 
@@ -123,7 +123,7 @@ TEST_F(CatalogueTest, an_image_that_only_the_scan_file_names_is_looked_for_again
 }
 
 TEST_F(CatalogueTest, rows_of_a_manifest_that_share_a_scan_file_are_remembered_apart) {
-    geometry::write_atomically(root() / "manifest.csv",
+    base::write_atomically(root() / "manifest.csv",
                                "subject,expression,scan,landmarks\n"
                                "anna,N,bs000/bs000_N_N_0.bnt,bs000/bs000_N_N_0.lm3\n"
                                "anna,12,bs000/bs000_N_N_0.bnt,\n");
@@ -199,7 +199,7 @@ TEST_F(CatalogueTest, a_locked_catalogue_is_done_without) {
 }
 
 TEST_F(CatalogueTest, a_cache_folder_that_cannot_be_made_is_done_without) {
-    geometry::write_atomically(folder_.path() / "cache", "a file where the folder should be");
+    base::write_atomically(folder_.path() / "cache", "a file where the folder should be");
     const auto result = list();
     EXPECT_EQ(result.scans_read, 3U);
     EXPECT_THAT(result.remark, HasSubstr("without a catalogue"));

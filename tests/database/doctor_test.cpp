@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
 
@@ -111,7 +111,7 @@ TEST(Doctor, where_only_scan_or_landmarks_have_another_unit_that_file_is_named) 
     EXPECT_EQ(findings[0].mend, "multiply the coordinates of the scan by 10");
     scan = loaded(mapped(make_face(), [](auto p) { return geometry::Point(10 * p); }));  // mm, and the table says cm
     scan.landmarks = make_face().landmarks;
-    scan.entry.unit = geometry::LengthUnit::centimetre;
+    scan.entry.unit = io::LengthUnit::centimetre;
     EXPECT_THAT(found(check_scan(scan), "unit"),
                 HasSubstr("convert the coordinates of the scan to the unit that manifest.csv gives them"));
     scan = loaded(small);
@@ -230,7 +230,7 @@ TEST(Doctor, a_lattice_stored_top_down_is_seen_though_texture_and_landmarks_are_
 TEST(Doctor, damaged_landmarks_of_the_image_are_a_warning_at_their_file) {
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_N_N_0", make_face());
-    geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm2", "# x\n");
+    base::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm2", "# x\n");
     for (const bool textured : {true, false}) {
         if (!textured) std::filesystem::remove(folder.path() / "bs000/bs000_N_N_0.png");
         const auto findings = check_scan(open_database(folder.path()).scans[0]);
@@ -375,7 +375,7 @@ TEST(Doctor, unreadable_landmarks_do_not_hide_what_is_wrong_with_the_scan) {
     MadeFace face = make_face();
     face.scan.points_mm[25 * 61 + 30].z() += 12;
     write_scan(folder.path(), "bs000_N_N_0", face);
-    geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm3", "damaged");
+    base::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm3", "damaged");
     const auto findings = check_scan(open_database(folder.path()).scans[0]);
     EXPECT_THAT(found(findings, "unreadable"), HasSubstr("bs000_N_N_0.lm3"));
     EXPECT_THAT(found(findings, "spikes"), HasSubstr("1 point"));
@@ -388,7 +388,7 @@ TEST(Doctor, an_unreadable_scan_and_unreadable_landmarks_are_two_findings_each_a
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_N_N_0", make_face());
     std::filesystem::resize_file(folder.path() / "bs000/bs000_N_N_0.bnt", 1000);
-    geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm3", "damaged");
+    base::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm3", "damaged");
     const auto findings = check_scan(open_database(folder.path()).scans[0]);
     ASSERT_EQ(findings.size(), 2U);
     EXPECT_THAT(findings[0].where, testing::EndsWith(".bnt"));

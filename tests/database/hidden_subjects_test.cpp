@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "database/scan_database.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
 
@@ -56,7 +56,7 @@ TEST(HiddenSubjects, a_list_of_a_size_that_no_list_has_is_refused_before_it_is_r
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_N_N_0", make_face());
     const auto file = folder.path() / "unallowed_subjects.txt";
-    geometry::write_atomically(file, "bs000\n");
+    base::write_atomically(file, "bs000\n");
     std::filesystem::resize_file(file, std::uintmax_t{1} << 40);  // sparse: nobody could hold it
     const auto expected = AllOf(HasSubstr("unallowed_subjects.txt: has 1099511627776 bytes"), HasSubstr("1048576"));
     EXPECT_THAT(message_of<InputError>([&] { (void)open_database(folder.path()); }), expected);
@@ -84,17 +84,17 @@ TEST(HiddenSubjects, a_list_of_comments_hides_nobody) {
 TEST(HiddenSubjects, the_lists_name_is_taken_without_regard_to_case) {
     const TemporaryFolder folder;
     EXPECT_THAT(hidden_subjects_files(folder.path()), IsEmpty());
-    geometry::write_atomically(folder.path() / "Unallowed_Subjects.TXT", "1\n");
+    base::write_atomically(folder.path() / "Unallowed_Subjects.TXT", "1\n");
     EXPECT_THAT(hidden_subjects_files(folder.path()), ElementsAre(folder.path() / "Unallowed_Subjects.TXT"));
 }
 
 class RefuseHiddenFile : public testing::Test {
 protected:
     std::string refused(const std::filesystem::path& file) {
-        geometry::write_atomically(folder_.path() / file, "a scan");
+        base::write_atomically(folder_.path() / file, "a scan");
         return message_of<InputError>([&] { refuse_hidden_file(folder_.path() / file); });
     }
-    void list(const std::string& text) { geometry::write_atomically(folder_.path() / "Unallowed_subjects.txt", text); }
+    void list(const std::string& text) { base::write_atomically(folder_.path() / "Unallowed_subjects.txt", text); }
     static constexpr const char* shown = "nothing was thrown";
     TemporaryFolder folder_;
 };
@@ -103,9 +103,9 @@ TEST(HiddenSubjectsOf, lists_in_the_folder_and_the_two_above_it_count_and_those_
     const TemporaryFolder folder;
     const auto root = folder.path() / "a/b";
     std::filesystem::create_directories(root / "c");
-    geometry::write_atomically(folder.path() / "unallowed_subjects.txt", "bs002\nof another database\n");
-    geometry::write_atomically(folder.path() / "a/unallowed_subjects.txt", "nobody\n");
-    geometry::write_atomically(root / "unallowed_subjects.txt", "1 nobody\n");
+    base::write_atomically(folder.path() / "unallowed_subjects.txt", "bs002\nof another database\n");
+    base::write_atomically(folder.path() / "a/unallowed_subjects.txt", "nobody\n");
+    base::write_atomically(root / "unallowed_subjects.txt", "1 nobody\n");
     const std::vector<std::string> subjects = {"bs000", "bs001", "bs002"};
     for (const auto& spelling : {root, root / "", root / "c/.."}) {
         const auto hidden = hidden_subjects_of(spelling, subjects);
@@ -115,14 +115,14 @@ TEST(HiddenSubjectsOf, lists_in_the_folder_and_the_two_above_it_count_and_those_
     EXPECT_THAT(hidden_subjects_of(root / "c", subjects).subjects, ElementsAre("bs001"));  // bs002's is three above
     const TemporaryFolder elsewhere;
     std::filesystem::create_symlink(root, elsewhere.path() / "link");
-    geometry::write_atomically(elsewhere.path() / "unallowed_subjects.txt", "bs000\n");
+    base::write_atomically(elsewhere.path() / "unallowed_subjects.txt", "bs000\n");
     EXPECT_THAT(hidden_subjects_of(elsewhere.path() / "link", subjects).subjects,
                 ElementsAre("bs000", "bs001", "bs002"));
 }
 
 TEST(HiddenSubjectsOf, where_only_some_subjects_are_known_a_list_that_names_none_of_them_is_no_mistake) {
     const TemporaryFolder folder;
-    geometry::write_atomically(folder.path() / "unallowed_subjects.txt", "anna\n");
+    base::write_atomically(folder.path() / "unallowed_subjects.txt", "anna\n");
     const std::vector<std::string> subjects = {"ben"};
     EXPECT_THAT(hidden_subjects_of(folder.path(), subjects, KnownSubjects::some).subjects, IsEmpty());
     EXPECT_THAT(message_of<InputError>([&] { (void)hidden_subjects_of(folder.path(), subjects); }),
@@ -159,11 +159,11 @@ TEST_F(RefuseHiddenFile, a_link_to_a_hidden_file_is_refused) {
 
 TEST_F(RefuseHiddenFile, a_manifest_beside_or_below_the_list_says_whose_file_it_is) {
     list("müller\n");
-    geometry::write_atomically(folder_.path() / "manifest.csv",
+    base::write_atomically(folder_.path() / "manifest.csv",
                                "subject,expression,scan\nmüller,N,scans/1.ply\nanna,N,scans/2.ply\n");
     EXPECT_THAT(refused("scans/1.ply"), HasSubstr("subject 'müller'"));
     EXPECT_EQ(refused("scans/2.ply"), shown);
-    geometry::write_atomically(folder_.path() / "db/manifest.csv", "subject,expression,scan\nmüller,N,1.ply\n");
+    base::write_atomically(folder_.path() / "db/manifest.csv", "subject,expression,scan\nmüller,N,1.ply\n");
     EXPECT_THAT(refused("db/1.ply"), HasSubstr("subject 'müller'"));  // a manifest below the list
 }
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "geometry/image.h"
+#include "io/image.h"
 
 namespace mimik::database {
 namespace {
@@ -74,10 +74,10 @@ void write_scan(const std::filesystem::path& root, const std::string& name, cons
     MadeFace named = face;
     if (named.scan.texture_file.empty()) named.scan.texture_file = name + ".png";
     write_bnt(folder / (name + ".bnt"), to_bnt(named.scan));
-    const geometry::Image grey{
+    const io::Image grey{
         face.image_size, face.image_size,
         std::vector<std::uint8_t>(3 * static_cast<std::size_t>(face.image_size * face.image_size), 128)};
-    geometry::write_png(folder / (name + ".png"), grey);
+    io::write_png(folder / (name + ".png"), grey);
     write_lm3(folder / (name + ".lm3"), to_bosphorus_labels(face.landmarks));
     write_lm2(folder / (name + ".lm2"), face.image_landmarks);
 }

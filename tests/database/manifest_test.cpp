@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/landmark_io.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/landmark_io.h"
 #include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
 
@@ -29,9 +29,9 @@ TEST(Manifest, a_line_gives_a_scan_with_absolute_paths_and_a_unit) {
     EXPECT_EQ(smile.id.name(), "S1_LFAU_12L_0");
     EXPECT_EQ(smile.scan_file, "/data/a/x.ply");
     EXPECT_EQ(smile.landmarks_file, "/data/a/x.pp");
-    EXPECT_EQ(smile.unit, geometry::LengthUnit::centimetre);
+    EXPECT_EQ(smile.unit, io::LengthUnit::centimetre);
     EXPECT_EQ(smile.sex, "f");
-    EXPECT_EQ(manifest.scans[1].unit, geometry::LengthUnit::millimetre);
+    EXPECT_EQ(manifest.scans[1].unit, io::LengthUnit::millimetre);
     EXPECT_TRUE(manifest.scans[1].landmarks_file.empty());
     EXPECT_THAT(manifest.remarks, IsEmpty());
 }
@@ -113,9 +113,9 @@ ScanDatabase ply_database(const TemporaryFolder& folder, const std::string& land
                        up = a + static_cast<std::uint32_t>(face.scan.cols);
             mesh.faces.add(std::array{a, a + 1, up + 1, up});
         }
-    geometry::write_mesh(folder.path() / "anna.ply", mesh);
-    geometry::write_landmarks(folder.path() / landmark_file, landmarks_cm);
-    geometry::write_atomically(
+    io::write_mesh(folder.path() / "anna.ply", mesh);
+    io::write_landmarks(folder.path() / landmark_file, landmarks_cm);
+    base::write_atomically(
         folder.path() / "manifest.csv",
         "subject,expression,scan,landmarks,sex,unit\nanna,neutral,anna.ply," + landmark_file + ",f,cm\n");
     return open_database(folder.path());
@@ -153,7 +153,7 @@ TEST(Manifest, image_and_image_landmarks_beside_a_scan_belong_to_it_and_its_text
     write_scan(folder.path(), "bs000_N_N_0", face);
     const auto files = folder.path() / "bs000";
     std::filesystem::rename(files / "bs000_N_N_0.png", files / "bs000_N_N_0.PNG");
-    geometry::write_atomically(
+    base::write_atomically(
         folder.path() / "manifest.csv",
         "subject,expression,scan,landmarks\nanna,N,./bs000/bs000_N_N_0.bnt,bs000/bs000_N_N_0.lm3\n");
     const auto database = open_database(folder.path());
@@ -168,7 +168,7 @@ TEST(Manifest, image_and_image_landmarks_beside_a_scan_belong_to_it_and_its_text
 
 TEST(Manifest, a_list_without_a_scan_is_refused) {
     const TemporaryFolder folder;
-    geometry::write_atomically(folder.path() / "manifest.csv", "subject,expression,scan\n");
+    base::write_atomically(folder.path() / "manifest.csv", "subject,expression,scan\n");
     EXPECT_THAT(message_of<InputError>([&] { (void)open_database(folder.path()); }),
                 HasSubstr("manifest.csv: lists no scan"));
 }
@@ -176,7 +176,7 @@ TEST(Manifest, a_list_without_a_scan_is_refused) {
 TEST(SubjectTable, gives_the_sex_in_a_bosphorus_layout) {
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_N_N_0", make_face());
-    geometry::write_atomically(folder.path() / "subjects.csv", "subject,sex,age\nBS000,female,30\n");
+    base::write_atomically(folder.path() / "subjects.csv", "subject,sex,age\nBS000,female,30\n");
     EXPECT_EQ(open_database(folder.path()).scans[0].sex, "f");
 }
 

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "database/doctor.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/landmark_io.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/landmark_io.h"
 #include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
 
@@ -50,11 +50,11 @@ TEST(ScanDatabase, a_folder_in_bosphorus_layout_is_listed_in_order) {
 TEST(ScanDatabase, a_scan_whose_texture_name_leads_elsewhere_is_loaded_without_it) {
     const TemporaryFolder folder;
     const auto at = [&](const char* name) { return folder.path() / name; };
-    geometry::write_atomically(at("a.obj"),
+    base::write_atomically(at("a.obj"),
                                "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.5 0.5\n"
                                "f 1/1 2/2 3/3\nf 1/1 3/4 2/2\n");
-    geometry::write_atomically(at("a.mtl"), "newmtl x\nmap_Kd C:\\scans\\face.jpg\n");
-    geometry::write_atomically(at("manifest.csv"), "subject,expression,scan\nanna,N,a.obj\n");
+    base::write_atomically(at("a.mtl"), "newmtl x\nmap_Kd C:\\scans\\face.jpg\n");
+    base::write_atomically(at("manifest.csv"), "subject,expression,scan\nanna,N,a.obj\n");
     const auto entry = open_database(folder.path()).scans.at(0);
     const auto loaded = load(entry);
     EXPECT_EQ(loaded.scan.points_mm.size(), 3U);
@@ -92,14 +92,14 @@ TEST(ScanDatabase, a_missing_or_empty_folder_is_refused_by_name) {
 TEST(ScanDatabase, unallowed_subjects_are_hidden_by_number_or_name) {
     const TemporaryFolder folder;
     for (const char* name : {"bs000_N_N_0", "bs001_N_N_0", "bs002_N_N_0"}) write_scan(folder.path(), name, make_face());
-    geometry::write_atomically(folder.path() / "Unallowed_Subjects.txt",
+    base::write_atomically(folder.path() / "Unallowed_Subjects.txt",
                                "# not to be shown: bs002\r\nBS000\r\nbs1, bs077\nnobody\n");
     const auto database = open_database(folder.path());
     EXPECT_THAT(database.hidden_subjects, ElementsAre("bs000", "bs001", "bs077"));
     EXPECT_TRUE(database.hidden("BS000"));
     EXPECT_FALSE(database.hidden("bs002"));
     EXPECT_THAT(database.remarks, Contains(HasSubstr("'nobody' is no subject")));
-    geometry::write_atomically(folder.path() / "Unallowed_Subjects.txt", "nobody\n");
+    base::write_atomically(folder.path() / "Unallowed_Subjects.txt", "nobody\n");
     EXPECT_THAT(message_of<InputError>([&] { (void)open_database(folder.path()); }),
                 HasSubstr("Unallowed_Subjects.txt: line 1: 'nobody' is no subject"));
 }
@@ -107,7 +107,7 @@ TEST(ScanDatabase, unallowed_subjects_are_hidden_by_number_or_name) {
 TEST(ScanDatabase, a_list_above_the_database_hides_too_also_where_one_subjects_folder_is_opened) {
     const TemporaryFolder folder;
     for (const char* name : {"bs000_N_N_0", "bs001_N_N_0"}) write_scan(folder.path() / "db", name, make_face());
-    geometry::write_atomically(folder.path() / "unallowed_subjects.txt", "bs001\nsomebody else\n");
+    base::write_atomically(folder.path() / "unallowed_subjects.txt", "bs001\nsomebody else\n");
     const auto database = open_database(folder.path() / "db");
     EXPECT_TRUE(database.hidden("bs001"));
     EXPECT_FALSE(database.hidden("bs000"));
@@ -120,7 +120,7 @@ TEST(ScanDatabase, facs_codes_give_intensities_with_the_stronger_side) {
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_LFAU_12_0", make_face());
     write_scan(folder.path(), "bs000_N_N_0", make_face());
-    geometry::write_atomically(folder.path() / "facscodes.lst",
+    base::write_atomically(folder.path() / "facscodes.lst",
                                "header\nheader\nbs000_LFAU_12_0 -> 6B+L12C+R12D+25\nbs000_N_N_0 -> 0\n");
     const auto database = open_database(folder.path());
     const auto* smile = database.find(*parse_scan_name("bs000_LFAU_12_0"));
@@ -173,7 +173,7 @@ void write_viewers_smiles(const std::filesystem::path& root, const std::string& 
         write_scan(root, name, made);
         const auto stem = root / subject / name;
         std::filesystem::remove(stem.string() + ".lm3");
-        geometry::write_landmarks(stem.string() + extension, marks);
+        io::write_landmarks(stem.string() + extension, marks);
     };
     write(subject + "_N_N_0", face.landmarks);
     for (const auto& code : codes)
@@ -294,18 +294,18 @@ TEST(Load, a_missing_texture_is_remarked_by_name) {
 TEST(Load, bad_pixel_landmarks_do_not_forbid_the_scan) {
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_N_N_0", make_face());
-    geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm2", "# x\n");
+    base::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm2", "# x\n");
     EXPECT_THAT(load(open_database(folder.path()).scans[0]).remarks,
                 ElementsAre(HasSubstr("bs000_N_N_0.lm2: has no line")));
 }
 
 TEST(Load, files_that_only_the_scan_file_names_are_listed) {
     const TemporaryFolder folder;
-    geometry::write_atomically(folder.path() / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n");
-    geometry::write_atomically(folder.path() / "manifest.csv", "subject,expression,scan\nanna,N,a.obj\n");
+    base::write_atomically(folder.path() / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n");
+    base::write_atomically(folder.path() / "manifest.csv", "subject,expression,scan\nanna,N,a.obj\n");
     EXPECT_THAT(load(open_database(folder.path()).scans[0]).files_looked_for,
                 ElementsAre(std::filesystem::canonical(folder.path()) / "a.mtl"));
-    geometry::write_atomically(folder.path() / "a.mtl", "newmtl face\nmap_Kd skin.png\n");
+    base::write_atomically(folder.path() / "a.mtl", "newmtl face\nmap_Kd skin.png\n");
     EXPECT_THAT(load(open_database(folder.path()).scans[0]).files_looked_for,
                 ElementsAre(std::filesystem::canonical(folder.path()) / "a.mtl",
                             std::filesystem::canonical(folder.path()) / "skin.png"));
@@ -314,7 +314,7 @@ TEST(Load, files_that_only_the_scan_file_names_are_listed) {
 TEST(Load, two_labels_for_one_point_are_refused_with_the_file) {
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_N_N_0", make_face());
-    geometry::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm3",
+    base::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm3",
                                "# x\n\n2 landmarks:\nNose tip\n0 0 70\nnose  TIP\n0 2 70\n");
     EXPECT_THAT(message_of<InputError>([&] { (void)load(open_database(folder.path()).scans[0]); }),
                 HasSubstr("bs000_N_N_0.lm3: landmark 'nose_tip' appears twice"));

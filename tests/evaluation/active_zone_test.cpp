@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "tests/support/analytic_truth.h"
 #include "tests/support/analytic_workspace.h"
 

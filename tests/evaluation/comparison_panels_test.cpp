@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "geometry/csv.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/landmark_io.h"
-#include "geometry/mesh_io.h"
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/landmark_io.h"
+#include "io/mesh_io.h"
 #include "geometry/surface_index.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/workspace_test.h"
@@ -39,7 +39,7 @@ ComparisonRequest smile(const std::string& source, const std::string& target) {
     return request;
 }
 
-json description_of(const ComparisonFigure& figure) { return json::parse(geometry::read_text(figure.description)); }
+json description_of(const ComparisonFigure& figure) { return json::parse(base::read_text(figure.description)); }
 
 std::vector<double> attribute(const geometry::Mesh& mesh, const std::string& name) {
     for (const auto& candidate : mesh.attributes)
@@ -94,8 +94,8 @@ TEST_F(ComparisonPanels, all_panels_of_a_person_share_one_centre_and_the_coloure
 
 TEST_F(ComparisonPanels, the_real_scan_lies_in_the_frame_of_its_neutral_where_the_smile_does_not_reach) {
     (void)panels(smile("bs000", "bs001"), "frame");
-    const auto neutral = geometry::read_mesh(out("frame") / "target_neutral.ply");
-    const auto real = geometry::read_mesh(out("frame") / "target_real.ply");
+    const auto neutral = io::read_mesh(out("frame") / "target_neutral.ply");
+    const auto real = io::read_mesh(out("frame") / "target_real.ply");
     // The two poses of bs001 put the forehead 5 mm apart; after the alignment what is left is the chord error of
     // cells 1.9 mm wide, and of the ICP, together below 0.15 mm.
     double lowest = 1e9, highest = -1e9;
@@ -121,9 +121,9 @@ TEST_F(ComparisonPanels, controls_lie_on_the_surfaces_that_they_are_drawn_on) {
                                                          {"source_real_controls.csv", "source_real.ply"},
                                                          {"target_controls.csv", "target_neutral.ply"}};
     for (const auto& [controls, mesh] : pairs) {
-        const auto surface_mesh = geometry::read_mesh(out("controls") / mesh);
+        const auto surface_mesh = io::read_mesh(out("controls") / mesh);
         const geometry::SurfaceIndex surface(surface_mesh.vertices_mm, geometry::triangulate(surface_mesh.faces));
-        const auto marks = geometry::read_landmarks(out("controls") / controls);
+        const auto marks = io::read_landmarks(out("controls") / controls);
         EXPECT_GT(marks.size(), 10U) << controls;
         for (const auto& mark : marks.all())
             // They were moved to the nearest surface point: rounding is all that is left.
@@ -136,8 +136,8 @@ TEST_F(ComparisonPanels, colours_are_the_distances_that_the_captions_sum_up) {
     ASSERT_EQ(figure.people.size(), 2U);
     EXPECT_EQ(figure.people[1].subject, "bs001");
     const auto& distances = figure.people[1].distances;
-    const auto neutral = attribute(geometry::read_mesh(out("colours") / "target_neutral.ply"), "distance_mm");
-    const auto animated = attribute(geometry::read_mesh(out("colours") / "target_animated.ply"), "distance_mm");
+    const auto neutral = attribute(io::read_mesh(out("colours") / "target_neutral.ply"), "distance_mm");
+    const auto animated = attribute(io::read_mesh(out("colours") / "target_animated.ply"), "distance_mm");
     // The same numbers added up in another order.
     EXPECT_NEAR(mean_of_finite(neutral), distances.whole_nothing_mm, 1e-9);
     EXPECT_NEAR(mean_of_finite(animated), distances.whole_mm, 1e-9);
@@ -158,8 +158,8 @@ TEST_F(ComparisonPanels, magnitude_nought_is_doing_nothing) {
     const auto figure = panels(request, "nought");
     const auto& distances = figure.people[1].distances;
     EXPECT_EQ(distances.zone_mm, distances.zone_nothing_mm);
-    EXPECT_EQ(geometry::read_mesh(out("nought") / "target_animated.ply").vertices_mm,
-              geometry::read_mesh(out("nought") / "target_neutral.ply").vertices_mm);
+    EXPECT_EQ(io::read_mesh(out("nought") / "target_animated.ply").vertices_mm,
+              io::read_mesh(out("nought") / "target_neutral.ply").vertices_mm);
     EXPECT_EQ(comparison_name(catalogue(), request), "AU12_m0_bs000_on_bs001_default");
 }
 
@@ -176,8 +176,8 @@ TEST_F(ComparisonPanels, a_mean_shows_the_average_face_neutral_and_moved_before_
     EXPECT_EQ(list[0].at("mesh"), "average_neutral.ply");
     EXPECT_EQ(list[1].at("mesh"), "average_animated.ply");
     EXPECT_EQ(list[2].at("mesh"), "target_neutral.ply");
-    EXPECT_NE(geometry::read_mesh(out("mean") / "average_neutral.ply").vertices_mm,
-              geometry::read_mesh(out("mean") / "average_animated.ply").vertices_mm);
+    EXPECT_NE(io::read_mesh(out("mean") / "average_neutral.ply").vertices_mm,
+              io::read_mesh(out("mean") / "average_animated.ply").vertices_mm);
     ASSERT_EQ(figure.people.size(), 1U);
     EXPECT_EQ(figure.people[0].subject, "bs001");
 }
@@ -233,9 +233,9 @@ TEST_F(ComparisonPanels, a_series_has_a_row_per_expression_whose_displacements_g
     EXPECT_EQ(figure.panels, 6U);
     EXPECT_EQ(description_of(figure).at("columns"), 3);
     EXPECT_EQ(series_name(catalogue(), request, expressions), "AU12_AU12_L_series_bs000_on_bs001_default");
-    const auto none = geometry::read_mesh(out("series") / "AU12_m0.ply").vertices_mm;
-    const auto half = geometry::read_mesh(out("series") / "AU12_m0.5.ply").vertices_mm;
-    const auto whole = geometry::read_mesh(out("series") / "AU12_m1.ply").vertices_mm;
+    const auto none = io::read_mesh(out("series") / "AU12_m0.ply").vertices_mm;
+    const auto half = io::read_mesh(out("series") / "AU12_m0.5.ply").vertices_mm;
+    const auto whole = io::read_mesh(out("series") / "AU12_m1.ply").vertices_mm;
     ASSERT_EQ(none.size(), whole.size());
     double largest = 0;
     for (std::size_t v = 0; v < none.size(); ++v) {
@@ -299,11 +299,11 @@ TEST_F(ComparisonPanels, files_of_an_earlier_figure_go_and_what_it_does_not_name
                                      out("again/figure"));
     };
     series({0.25, 1});
-    geometry::write_atomically(out("again/figure/AU12_mine.ply"), "mine");
-    geometry::write_atomically(out("again/other.ply"), "other");
-    auto description = json::parse(geometry::read_text(out("again/figure/figure.json")));
+    base::write_atomically(out("again/figure/AU12_mine.ply"), "mine");
+    base::write_atomically(out("again/other.ply"), "other");
+    auto description = json::parse(base::read_text(out("again/figure/figure.json")));
     description["panels"][1]["controls"] = "../other.ply";
-    geometry::write_atomically(out("again/figure/figure.json"), description.dump());
+    base::write_atomically(out("again/figure/figure.json"), description.dump());
     series({0.5});
     EXPECT_FALSE(fs::exists(out("again/figure/AU12_m0.25.ply")));
     EXPECT_TRUE(fs::exists(out("again/figure/AU12_m0.5.ply")));
@@ -335,7 +335,7 @@ TEST_F(ComparisonPanels, what_cannot_be_shown_is_refused_by_name_before_any_file
 TEST_F(ComparisonPanels, a_scan_that_a_mean_cannot_use_is_a_failure_beside_the_picture_of_the_rest) {
     const database::TemporaryFolder folder;
     const auto workspace = test::analytic_workspace(folder.path());
-    geometry::write_atomically(workspace.root() / "faces" / "bs000" / "bs000_LFAU_12_0.json", "{}");
+    base::write_atomically(workspace.root() / "faces" / "bs000" / "bs000_LFAU_12_0.json", "{}");
     const std::vector<std::string> one = {"12"};
     const std::vector<double> whole = {1};
     const auto panels =
@@ -363,7 +363,7 @@ TEST_F(ComparisonPanels, a_scan_that_was_aligned_beside_its_neutral_is_named) {
 
 TEST_F(ComparisonPanels, subjects_who_must_not_be_shown_are_refused_and_stand_in_no_file) {
     const database::TemporaryFolder folder;
-    geometry::write_atomically(folder.path() / "db" / "unallowed_subjects.txt", "BS000\n");
+    base::write_atomically(folder.path() / "db" / "unallowed_subjects.txt", "BS000\n");
     const auto workspace = test::analytic_workspace(folder.path());
     for (const auto& request : {smile("bs000", "bs001"), smile("bs001", "bs000")})
         EXPECT_THAT(message_of<InputError>(
@@ -371,7 +371,7 @@ TEST_F(ComparisonPanels, subjects_who_must_not_be_shown_are_refused_and_stand_in
                     HasSubstr("'bs000' stands in unallowed_subjects.txt"));
     EXPECT_FALSE(fs::exists(folder.path() / "out"));
     const auto figure = write_comparison_panels(workspace, catalogue(), smile("mean", "bs001"), folder.path() / "out");
-    EXPECT_THAT(geometry::read_text(figure.description), testing::Not(HasSubstr("bs000")));
+    EXPECT_THAT(base::read_text(figure.description), testing::Not(HasSubstr("bs000")));
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluation/score_table.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/parallel.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_truth.h"
 #include "tests/support/analytic_workspace_files.h"
@@ -108,11 +108,11 @@ TEST_F(Experiment, cases_shares_and_header_are_as_defined) {
 }
 
 TEST_F(Experiment, one_and_two_threads_give_the_same_tables) {
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     const auto one = run(*workspace_);
-    geometry::set_thread_count(2);
+    base::set_thread_count(2);
     const auto two = run(*workspace_);
-    geometry::set_thread_count(0);
+    base::set_thread_count(0);
     EXPECT_EQ(to_json(one), to_json(two));
     EXPECT_EQ(to_csv(one), to_csv(two));
     EXPECT_EQ(to_markdown(one), to_markdown(two));
@@ -236,9 +236,9 @@ TEST_F(Experiment, a_damaged_face_and_a_hidden_subject_take_no_part_and_the_rest
     test::write_analytic_scan(db, "bs003_LFAU_12_0", {1.02, 6}, test::analytic_pose(2));
     test::write_analytic_scan(db, "bs004_N_N_0", {0.98, 0}, test::analytic_pose(3));
     test::write_analytic_scan(db, "bs004_LFAU_12_0", {0.98, 6}, test::analytic_pose(0));
-    geometry::write_atomically(db / "unallowed_subjects.txt", "bs003\n");
+    base::write_atomically(db / "unallowed_subjects.txt", "bs003\n");
     const auto workspace = test::analytic_workspace(folder.path());
-    geometry::write_atomically(workspace.root() / "faces" / "bs001" / "bs001_LFAU_12_0.json", "{}");
+    base::write_atomically(workspace.root() / "faces" / "bs001" / "bs001_LFAU_12_0.json", "{}");
     auto options = smile_options();
     options.methods = {method_by_name("default")};
     const auto report = run(workspace, options);

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_truth.h"
 #include "tests/support/analytic_workspace_files.h"
@@ -82,7 +82,7 @@ TEST(CastOfEmotion, has_the_zones_of_its_units_beside_its_own) {
     const database::TemporaryFolder folder;
     const auto db = folder.path() / "db";
     test::write_analytic_truth(db);
-    auto document = nlohmann::json::parse(geometry::read_text(db / "truth" / "truth.json"));
+    auto document = nlohmann::json::parse(base::read_text(db / "truth" / "truth.json"));
     for (int k = 0; k < 3; ++k) {
         const auto name = "bs00" + std::to_string(k) + "_E_HAPPY_0";
         const test::AnalyticFace shape{test::analytic_scales[k], test::analytic_smile_mm};
@@ -93,7 +93,7 @@ TEST(CastOfEmotion, has_the_zones_of_its_units_beside_its_own) {
         synthesis::write_true_scan(db / "truth", truth);
         document["scans"].push_back(name);
     }
-    geometry::write_atomically(db / "truth" / "truth.json", document.dump());
+    base::write_atomically(db / "truth" / "truth.json", document.dump());
     const auto workspace = test::analytic_workspace(folder.path());
     const PerformanceReader reader(workspace);
     FailureList failures;

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/parallel.h"
 
 namespace mimik::evaluation {
 namespace {
@@ -110,11 +110,11 @@ TEST(SurfaceDistance, a_masked_vertex_does_not_count_even_where_it_is_nan) {
 
 TEST(SurfaceDistance, is_the_same_to_the_bit_on_one_thread_and_on_two) {
     const auto a = sphere(50, 40, 70), b = sphere(51, 33, 64);
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     const auto one = surface_distance(a, b);
-    geometry::set_thread_count(2);
+    base::set_thread_count(2);
     const auto two = surface_distance(a, b);
-    geometry::set_thread_count(0);
+    base::set_thread_count(0);
     EXPECT_EQ(one.test_to_reference.distance_mm, two.test_to_reference.distance_mm);
     EXPECT_EQ(one.test_to_reference.summary.mean_mm, two.test_to_reference.summary.mean_mm);
     EXPECT_EQ(one.reference_to_test->distance_mm, two.reference_to_test->distance_mm);

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "database/bnt.h"
-#include "geometry/file.h"
-#include "geometry/mesh_io.h"
+#include "base/file.h"
+#include "io/mesh_io.h"
 #include "tests/figures/shapes.h"
 #include "tests/support/thrown.h"
 
@@ -50,7 +50,7 @@ TEST(FigureDescription, every_key_reaches_its_field) {
     ASSERT_EQ(d.panels.size(), 2U);
     const auto& a = d.panels[0];
     EXPECT_EQ(a.mesh, fs::path("folder/a.ply"));
-    EXPECT_EQ(a.unit, geometry::LengthUnit::centimetre);
+    EXPECT_EQ(a.unit, io::LengthUnit::centimetre);
     EXPECT_EQ(a.texture, fs::path("folder/a.png"));
     EXPECT_EQ(a.landmarks, fs::path("folder/l.csv"));
     EXPECT_EQ(a.controls, fs::path("folder/c.csv"));
@@ -108,14 +108,14 @@ TEST(FigureDescription, errors_name_the_file_the_key_and_the_value) {
 
 TEST(FigureTables, errors_name_file_line_column_and_value) {
     const auto controls = [](const std::string& text) {
-        return message_of([&] { (void)decode_controls(text, "c.csv", geometry::LengthUnit::millimetre); });
+        return message_of([&] { (void)decode_controls(text, "c.csv", io::LengthUnit::millimetre); });
     };
     EXPECT_EQ(controls("x,y,z,kind\n1,2,3,muscle\n"), "nothing was thrown");
     EXPECT_THAT(controls("x,y,z,kind\n1,nan,3,muscle\n"), HasSubstr("c.csv: line 2: y is 'nan'"));
     EXPECT_THAT(controls("x,y,z,kind\n1,2,3,bone\n"), HasSubstr("c.csv: line 2: kind is 'bone'"));
     std::string arrows = "x,y,z,to_x,to_y,to_z\n";
     for (int k = 0; k < 100'001; ++k) arrows += "0,0,0,1,1,1\n";
-    EXPECT_THAT(message_of([&] { (void)decode_arrows(arrows, "a.csv", geometry::LengthUnit::millimetre); }),
+    EXPECT_THAT(message_of([&] { (void)decode_arrows(arrows, "a.csv", io::LengthUnit::millimetre); }),
                 HasSubstr("a.csv: line 100002: more than 100000 lines"));
 }
 
@@ -125,7 +125,7 @@ protected:
     LoadFigure() { fs::create_directories(folder_); }
     ~LoadFigure() override { fs::remove_all(folder_); }
     fs::path written(const std::string& name, const std::string& text) const {
-        geometry::write_atomically(folder_ / name, text);
+        base::write_atomically(folder_ / name, text);
         return folder_ / name;
     }
     fs::path folder_ = fs::path(testing::TempDir()) /
@@ -133,8 +133,8 @@ protected:
 };
 
 TEST_F(LoadFigure, reads_what_the_description_names_beside_it) {
-    geometry::write_mesh(folder_ / "face.ply", square(10));
-    geometry::write_png(folder_ / "skin.png", geometry::Image{1, 1, {200, 150, 120}});
+    io::write_mesh(folder_ / "face.ply", square(10));
+    io::write_png(folder_ / "skin.png", io::Image{1, 1, {200, 150, 120}});
     (void)written("marks.csv", "name,x,y,z\nnose_tip,0.1,0.2,0.3\n");
     (void)written("controls.csv", "name,x,y,z,kind\na,1,0,0,muscle\nb,0,1,0,wrinkle\nc,0,0,1,muscle\n");
     (void)written("moves.csv", "x,y,z,to_x,to_y,to_z\n0,0,0,0.5,0,0\n");
@@ -179,7 +179,7 @@ TEST_F(LoadFigure, a_unit_scales_a_scan_as_it_scales_a_mesh_and_faults_name_the_
     scan.rows = scan.cols = 2;
     scan.points_mm = {Point(0, 0, 0), Point(0.1, 0, 0), Point(0, 0.2, 0), Point(0.1, 0.2, 0.3)};
     database::write_bnt(folder_ / "scan.bnt", database::to_bnt(scan));
-    const PanelDescription in_cm{.mesh = folder_ / "scan.bnt", .unit = geometry::LengthUnit::centimetre};
+    const PanelDescription in_cm{.mesh = folder_ / "scan.bnt", .unit = io::LengthUnit::centimetre};
     EXPECT_EQ(load_figure({.panels = {in_cm}}).panels[0].mesh.vertices_mm[3], 10 * scan.points_mm[3]);
     scan.points_mm[3].z() = 1e300;
     database::write_bnt(folder_ / "far.bnt", database::to_bnt(scan));
@@ -189,8 +189,8 @@ TEST_F(LoadFigure, a_unit_scales_a_scan_as_it_scales_a_mesh_and_faults_name_the_
 
 TEST_F(LoadFigure, the_scan_and_the_photograph_of_a_hidden_subject_are_refused) {
     fs::create_directories(folder_ / "bs000");
-    geometry::write_mesh(folder_ / "bs000" / "face.ply", square(10));
-    geometry::write_mesh(folder_ / "face.ply", square(10));
+    io::write_mesh(folder_ / "bs000" / "face.ply", square(10));
+    io::write_mesh(folder_ / "face.ply", square(10));
     EXPECT_NO_THROW((void)load_figure({.panels = {{.mesh = folder_ / "bs000" / "face.ply"}}}));
     (void)written("Unallowed_subjects.txt", "BS000\n");
     EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "bs000" / "face.ply"}}}); }),
@@ -204,7 +204,7 @@ TEST_F(LoadFigure, the_scan_and_the_photograph_of_a_hidden_subject_are_refused) 
 }
 
 TEST_F(LoadFigure, an_unknown_kind_of_control_is_refused_with_its_line) {
-    geometry::write_mesh(folder_ / "face.ply", square(10));
+    io::write_mesh(folder_ / "face.ply", square(10));
     const auto controls = written("controls.csv", "name,x,y,z,kind\na,1,0,0,muscle\nb,0,1,0,bone\n");
     const std::string error =
         message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "face.ply", .controls = controls}}}); });
@@ -214,7 +214,7 @@ TEST_F(LoadFigure, an_unknown_kind_of_control_is_refused_with_its_line) {
 TEST_F(LoadFigure, a_missing_file_and_a_missing_texture_are_named) {
     EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "none.ply"}}}); }),
                 HasSubstr("none.ply"));
-    geometry::write_mesh(folder_ / "face.ply", square(10));
+    io::write_mesh(folder_ / "face.ply", square(10));
     EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "face.ply", .textured = true}}}); }),
                 AllOf(HasSubstr("face.ply"), HasSubstr("no texture")));
 }
@@ -228,7 +228,7 @@ TEST_F(LoadFigure, a_texture_name_that_cannot_be_used_is_an_error_only_where_it_
     auto bnt = database::to_bnt(scan);
     bnt.texture_file = "../x.png";
     database::write_bnt(folder_ / "face.bnt", bnt);
-    geometry::write_png(folder_ / "skin.png", geometry::Image{1, 1, {200, 150, 120}});
+    io::write_png(folder_ / "skin.png", io::Image{1, 1, {200, 150, 120}});
     for (const auto& [name, texture] : {std::pair{"face.obj", "'C:"}, {"face.bnt", "'../x.png'"}}) {
         PanelDescription panel{.mesh = folder_ / name};
         EXPECT_NO_THROW((void)load_figure({.panels = {panel}})) << name;

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include "geometry/mesh_io.h"
+#include "io/mesh_io.h"
 #include "tests/figures/shapes.h"
 
 namespace mimik::figures {
@@ -39,7 +39,7 @@ class FigureProgram : public testing::Test {
 protected:
     FigureProgram() {
         fs::create_directories(folder_);
-        geometry::write_mesh(folder_ / "face.ply", square(100));
+        io::write_mesh(folder_ / "face.ply", square(100));
     }
     ~FigureProgram() override { fs::remove_all(folder_); }
     [[nodiscard]] Ended figure(const std::string& arguments) const {
@@ -54,7 +54,7 @@ TEST_F(FigureProgram, draws_panels_with_captions_through_the_main_program) {
     const auto ended = figure("-o out.png face.ply - face.ply --size 120x100 --caption '(a)' --view front --json");
     ASSERT_EQ(ended.code, 0) << ended.said;
     EXPECT_THAT(ended.said, AllOf(HasSubstr("\"output\": \"out.png\""), HasSubstr("\"panels\": 3")));
-    const auto size = geometry::image_size(folder_ / "out.png");
+    const auto size = io::image_size(folder_ / "out.png");
     EXPECT_EQ(size[0], 3 * 120 + 4 * (Figure{}.font_size_px / 2));
     EXPECT_GT(size[1], 100 + 2 * (Figure{}.font_size_px / 2));
 }

@@ -14,7 +14,7 @@
 namespace mimik::figures {
 namespace {
 
-using geometry::Image;
+using io::Image;
 using test::message_of;
 using testing::HasSubstr;
 
@@ -379,7 +379,7 @@ TEST(FigureCheck, errors_name_the_panel_and_the_value) {
                 }),
                 HasSubstr("'marks': radius_mm is -1"));
     EXPECT_THAT(broken([](Figure& f) {
-                    f.panels[0].texture = geometry::Image{1, 1, {0, 0, 0}};
+                    f.panels[0].texture = io::Image{1, 1, {0, 0, 0}};
                     f.panels[0].mesh.texture_coordinates.clear();
                 }),
                 HasSubstr("no texture coordinates"));

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "figures/figure.h"
-#include "geometry/errors.h"
+#include "base/errors.h"
 
 /// Skips a test that draws where the machine cannot draw at all, and says why.
 #define SKIP_WITHOUT_RENDERER()                \
@@ -64,14 +64,14 @@ inline Figure figure_of(Panel panel) {
 
 inline int margin_px(const Figure& figure) { return figure.font_size_px / 2; }
 
-inline Colour pixel(const geometry::Image& image, int x, int y) {
+inline Colour pixel(const io::Image& image, int x, int y) {
     const auto first =
         3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
     return {image.rgb.at(first), image.rgb.at(first + 1), image.rgb.at(first + 2)};
 }
 
 /// The pixel of figure_of() in which the point (x, y) mm of a front view lies.
-inline Colour at_mm(const geometry::Image& image, const Figure& figure, double x_mm, double y_mm) {
+inline Colour at_mm(const io::Image& image, const Figure& figure, double x_mm, double y_mm) {
     return pixel(image, margin_px(figure) + static_cast<int>(std::floor(100 + x_mm)),
                  margin_px(figure) + static_cast<int>(std::floor(100 - y_mm)));
 }

@@ -1,7 +1,7 @@
 #include <unistd.h>
 
 #include "database/catalogue.h"
-#include "geometry/file.h"
+#include "base/file.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {
@@ -65,7 +65,7 @@ void fuzz_one(std::span<const std::uint8_t> bytes) {
 std::vector<std::string> seeds() {
     place().clear();
     (void)place().list();
-    return {geometry::read_text(place().file), "SQLite format 3"};
+    return {base::read_text(place().file), "SQLite format 3"};
 }
 
 }  // namespace mimik::fuzzing

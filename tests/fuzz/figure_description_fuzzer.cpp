@@ -7,12 +7,12 @@ namespace mimik::fuzzing {
 void fuzz_one(std::span<const std::uint8_t> bytes) {
     const auto text = text_of(bytes);
     if (text.starts_with('c')) {
-        for (const auto& set : figures::decode_controls(text.substr(1), "input", geometry::LengthUnit::centimetre))
+        for (const auto& set : figures::decode_controls(text.substr(1), "input", io::LengthUnit::centimetre))
             for (const auto& p : set.positions_mm) require(p.allFinite(), "control points are finite");
         return;
     }
     if (text.starts_with('a')) {
-        for (const auto& arrow : figures::decode_arrows(text.substr(1), "input", geometry::LengthUnit::metre).arrows)
+        for (const auto& arrow : figures::decode_arrows(text.substr(1), "input", io::LengthUnit::metre).arrows)
             require(arrow.from_mm.allFinite() && arrow.to_mm.allFinite(), "arrows are finite");
         return;
     }

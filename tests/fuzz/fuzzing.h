@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 
 namespace mimik::fuzzing {
 

@@ -1,12 +1,12 @@
-#include "geometry/jpeg.h"
+#include "io/jpeg.h"
 #include "tests/fuzz/fuzzing.h"
 #include "tests/support/jpeg_of.h"
 
 namespace mimik::fuzzing {
 
 void fuzz_one(std::span<const std::uint8_t> bytes) {
-    const auto size = geometry::jpeg_size(bytes, "input");
-    const auto image = geometry::decode_jpeg(bytes, "input");
+    const auto size = io::jpeg_size(bytes, "input");
+    const auto image = io::decode_jpeg(bytes, "input");
     require(image.width == size[0] && image.height == size[1], "the header's size is the image's");
     require(image.rgb.size() ==
                 std::size_t{3} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),

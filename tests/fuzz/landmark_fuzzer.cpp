@@ -1,4 +1,4 @@
-#include "geometry/landmark_io.h"
+#include "io/landmark_io.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {

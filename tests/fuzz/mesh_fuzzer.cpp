@@ -1,12 +1,12 @@
 #include <sstream>
 
-#include "geometry/formats/bytes.h"
-#include "geometry/formats/obj.h"
-#include "geometry/formats/ply.h"
-#include "geometry/formats/stl.h"
-#include "geometry/formats/vtp.h"
-#include "geometry/mesh_io.h"
-#include "geometry/range_scan_io.h"
+#include "io/formats/bytes.h"
+#include "io/formats/obj.h"
+#include "io/formats/ply.h"
+#include "io/formats/stl.h"
+#include "io/formats/vtp.h"
+#include "io/mesh_io.h"
+#include "io/range_scan_io.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {

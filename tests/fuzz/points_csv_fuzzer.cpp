@@ -1,11 +1,11 @@
-#include "geometry/points_csv.h"
+#include "io/points_csv.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {
 
 void fuzz_one(std::span<const std::uint8_t> bytes) {
-    const auto table = geometry::decode_points_csv(text_of(bytes), "input");
-    const auto again = geometry::decode_points_csv(geometry::encode_points_csv(table), "again");
+    const auto table = io::decode_points_csv(text_of(bytes), "input");
+    const auto again = io::decode_points_csv(io::encode_points_csv(table), "again");
     require(again.points == table.points, "what was written reads back");
 }
 

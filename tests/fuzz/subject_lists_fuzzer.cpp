@@ -2,7 +2,7 @@
 
 #include "database/hidden_subjects.h"
 #include "database/manifest.h"
-#include "geometry/text.h"
+#include "base/text.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {
@@ -17,10 +17,10 @@ void hidden_list(std::string_view text, const std::vector<std::string>& subjects
     for (const auto& subject : list.subjects)
         require(std::find(subjects.begin(), subjects.end(), subject) != subjects.end() || subject.starts_with("bs"),
                 "who is hidden is of the database, or numbered");
-    geometry::LineReader lines(text, "input");
+    base::LineReader lines(text, "input");
     while (lines.next())
         for (const auto& subject : subjects)
-            require(geometry::trimmed(lines.line()) != subject || database::is_hidden(list.subjects, subject),
+            require(base::trimmed(lines.line()) != subject || database::is_hidden(list.subjects, subject),
                     "a subject with a line of its own is hidden");
 }
 
@@ -32,7 +32,7 @@ void fuzz_one(std::span<const std::uint8_t> bytes) {
     if (text.starts_with('n')) return hidden_list(text.substr(1), {"anna", "Bo # 2", "d-e", "m\xC3\xBCller"});
     if (!text.starts_with('s')) return hidden_list(text, {"bs000", "bs001", "bs012"});
     for (const auto& [subject, sex] : database::parse_subjects(text.substr(1), "input")) {
-        require(!subject.empty() && subject == geometry::lower_case(subject), "a subject has a name in lower case");
+        require(!subject.empty() && subject == base::lower_case(subject), "a subject has a name in lower case");
         require(sex.empty() || sex == "m" || sex == "f", "a sex is m, f or nothing");
     }
 }

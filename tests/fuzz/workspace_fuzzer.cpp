@@ -1,8 +1,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "geometry/formats/ply.h"
-#include "geometry/mesh_io.h"
+#include "io/formats/ply.h"
+#include "io/mesh_io.h"
 #include "preprocessing/average_face.h"
 #include "preprocessing/workspace.h"
 #include "tests/fuzz/fuzzing.h"
@@ -45,7 +45,7 @@ void average(std::string_view text) {
 /// Rows, columns, a PLY.
 void grid(std::span<const std::uint8_t> bytes) {
     if (bytes.size() < 2) return;
-    auto mesh = geometry::decode_mesh(geometry::MeshFormat::ply, bytes.subspan(2), "input").mesh;
+    auto mesh = io::decode_mesh(io::MeshFormat::ply, bytes.subspan(2), "input").mesh;
     const auto grid = to_grid(std::move(mesh), bytes[0], bytes[1], "input");
     require(grid.size() == std::size_t{bytes[0]} * bytes[1] && grid.origin.size() == grid.size(), "cells are whole");
     require(grid.texture_coordinates.empty() || grid.texture_coordinates.size() == grid.size(),
@@ -80,9 +80,9 @@ std::vector<std::string> seeds() {
     std::vector<std::string> files;
     for (const bool binary : {true, false}) {
         std::ostringstream out;
-        geometry::MeshWriteOptions options;
+        io::MeshWriteOptions options;
         options.binary = binary;
-        geometry::formats::encode_ply(out, mesh, options);
+        io::formats::encode_ply(out, mesh, options);
         files.push_back("g\x02\x03" + out.str());
     }
     files.push_back(

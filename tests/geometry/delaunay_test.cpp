@@ -13,8 +13,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/errors.h"
 #include "bench/peers/gridding_peer.h"
-#include "geometry/errors.h"
 
 namespace mimik::geometry {
 namespace {

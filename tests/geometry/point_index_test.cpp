@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/parallel.h"
 
 namespace mimik::geometry {
 namespace {
@@ -100,11 +100,11 @@ TEST(PointIndex, gives_the_same_answers_on_one_thread_and_on_two) {
     const auto points = random_cloud(5000, 3);
     const auto queries = random_cloud(5000, 4);
     const PointIndex index(points);
-    set_thread_count(1);
+    base::set_thread_count(1);
     const auto one = index.nearest(queries);
-    set_thread_count(2);
+    base::set_thread_count(2);
     const auto two = index.nearest(queries);
-    set_thread_count(0);
+    base::set_thread_count(0);
     for (std::size_t i = 0; i < one.size(); ++i) {
         EXPECT_EQ(one[i].index, two[i].index);
         EXPECT_EQ(one[i].distance_mm, two[i].distance_mm);

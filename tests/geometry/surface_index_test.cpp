@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/parallel.h"
 
 namespace mimik::geometry {
 namespace {
@@ -177,11 +177,11 @@ TEST(SurfaceIndex, answers_depend_neither_on_threads_nor_on_the_order_of_queries
     // Vertices of the surface itself lie on six triangles at once: the hardest ties.
     std::vector<Point> queries = s.vertices_mm;
     for (std::size_t i = 0; i < queries.size(); i += 2) queries[i].z() += 1.0;
-    set_thread_count(1);
+    base::set_thread_count(1);
     const auto one = index.closest(queries);
-    set_thread_count(2);
+    base::set_thread_count(2);
     const auto two = index.closest(queries);
-    set_thread_count(0);
+    base::set_thread_count(0);
     const std::vector<Point> backwards(queries.rbegin(), queries.rend());
     const auto reversed = index.closest(backwards);
     for (std::size_t i = 0; i < queries.size(); ++i) {

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/parallel.h"
 #include "tests/support/thrown.h"
 
 namespace mimik::geometry {
@@ -242,14 +242,14 @@ TEST(ThinPlateSpline, derivative_at_a_control_is_the_mean_of_all_directions) {
 TEST(ThinPlateSpline, gives_the_same_bits_on_one_thread_and_two_alone_and_in_a_batch_and_in_place) {
     const auto source = face_points(40, 19), target = moved(source, 20), probes = face_points(5003, 21);
     for (const auto kernel : both_kernels) {
-        set_thread_count(1);
+        base::set_thread_count(1);
         const auto spline = ThinPlateSpline::fit(source, target, {.kernel = kernel});
         const auto one = spline.apply(probes);
-        set_thread_count(2);
+        base::set_thread_count(2);
         const auto again = ThinPlateSpline::fit(source, target, {.kernel = kernel});
         auto in_place = probes;
         again.apply(in_place, in_place);
-        set_thread_count(0);
+        base::set_thread_count(0);
         EXPECT_EQ(one, in_place);
         for (std::size_t i = 0; i < probes.size(); i += 41) EXPECT_EQ(spline(probes[i]), one[i]);
         EXPECT_EQ(spline.affine().matrix(), again.affine().matrix());

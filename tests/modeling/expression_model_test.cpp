@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "modeling/average_fingerprint.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
@@ -208,7 +208,7 @@ TEST_F(ExpressionModelTest, a_model_file_reads_back_bit_for_bit) {
         EXPECT_EQ(read.points[k].kind, model.points[k].kind);
     }
     write_expression_model(copy, read);
-    EXPECT_EQ(geometry::read_text(copy), geometry::read_text(file));
+    EXPECT_EQ(base::read_text(copy), base::read_text(file));
     EXPECT_FALSE(read.provenance);
 }
 
@@ -228,10 +228,10 @@ TEST_F(ExpressionModelTest, a_stored_model_says_how_it_came_about_and_what_diffe
     EXPECT_EQ(read.provenance, model.provenance);
     EXPECT_EQ(read.unusable_scans, model.unusable_scans);
     write_expression_model(copy, read);
-    EXPECT_EQ(geometry::read_text(copy), geometry::read_text(file));
-    auto text = geometry::read_text(file);
+    EXPECT_EQ(base::read_text(copy), base::read_text(file));
+    auto text = base::read_text(file);
     const std::string kernel = "\"r2logr\"";
-    geometry::write_atomically(copy, text.replace(text.find(kernel), kernel.size(), "\"banana\""));
+    base::write_atomically(copy, text.replace(text.find(kernel), kernel.size(), "\"banana\""));
     EXPECT_THAT(message_of<InputError>([&] { (void)read_expression_model(copy); }),
                 HasSubstr("provenance: kernel: 'banana' is neither r nor r2logr"));
     auto here = *model.provenance;
@@ -261,9 +261,9 @@ TEST_F(ExpressionModelTest, a_file_that_is_no_model_to_animate_is_refused_by_nam
                 testing::AllOf(HasSubstr("bad.json: point 'AU12."), HasSubstr("twice")));
     EXPECT_THAT(refused([](ExpressionModel& m) { m.mouth_width_mm = 0; }), HasSubstr("bad.json: mouth_width_mm is 0"));
     write_expression_model(file, measure(*source_));
-    auto text = geometry::read_text(file);
+    auto text = base::read_text(file);
     text.replace(text.find("mimik expression model"), 22, "a list of things to do");
-    geometry::write_atomically(file, text);
+    base::write_atomically(file, text);
     EXPECT_THAT(message_of<InputError>([&] { (void)read_expression_model(file); }),
                 HasSubstr("bad.json: it is 'a list of things to do'"));
 }
@@ -271,14 +271,14 @@ TEST_F(ExpressionModelTest, a_file_that_is_no_model_to_animate_is_refused_by_nam
 TEST_F(ExpressionModelTest, a_damaged_model_file_is_named) {
     const database::TemporaryFolder folder;
     const auto file = folder.path() / "bad.json";
-    geometry::write_atomically(file, "{\"schema\": 2}");
+    base::write_atomically(file, "{\"schema\": 2}");
     EXPECT_THAT(message_of<InputError>([&] { (void)read_expression_model(file); }), HasSubstr("bad.json: schema is 2"));
-    geometry::write_atomically(file, "{\"schema\": 1}");
+    base::write_atomically(file, "{\"schema\": 1}");
     EXPECT_THAT(message_of<InputError>([&] { (void)read_expression_model(file); }), HasSubstr("bad.json"));
     write_expression_model(file, measure(*source_));
-    auto text = geometry::read_text(file);
+    auto text = base::read_text(file);
     text.replace(text.find("\"similarity\""), 12, "\"simulation\"");
-    geometry::write_atomically(file, text);
+    base::write_atomically(file, text);
     EXPECT_THAT(message_of<InputError>([&] { (void)read_expression_model(file); }),
                 HasSubstr("frame: 'simulation' is neither"));
 }

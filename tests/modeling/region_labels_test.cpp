@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "modeling/average_fingerprint.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
@@ -62,10 +62,10 @@ TEST_F(Regions, every_vertex_of_the_inside_has_one_and_the_halves_mirror_each_ot
 TEST_F(Regions, a_label_file_comes_back_as_it_was_and_says_which_vertex_is_off_the_grid) {
     const database::TemporaryFolder folder;
     const auto file = folder.path() / "regions.csv";
-    geometry::write_atomically(file, encode_region_labels(labels, average_fingerprint(average)));
+    base::write_atomically(file, encode_region_labels(labels, average_fingerprint(average)));
     EXPECT_EQ(read_region_labels(file, average).label, labels.label);
     EXPECT_EQ(read_region_labels(file, labels.rows, labels.cols).label, labels.label);
-    geometry::write_atomically(file, "row,col,region\n3,999,nose\n");
+    base::write_atomically(file, "row,col,region\n3,999,nose\n");
     EXPECT_THAT(database::message_of<InputError>([&] { (void)read_region_labels(file, average); }),
                 HasSubstr("(3, 999)"));
 }
@@ -76,13 +76,13 @@ TEST_F(Regions, labels_of_another_average_face_or_schema_are_refused) {
     auto other = average;
     other.landmarks = geometry::transformed(average.landmarks, geometry::Transform(Eigen::Translation3d(0, 0, 1e-6)));
     const auto refused = [&](const std::string& text) {
-        geometry::write_atomically(file, text);
+        base::write_atomically(file, text);
         return database::message_of<InputError>([&] { (void)read_region_labels(file, average); });
     };
     EXPECT_THAT(refused(encode_region_labels(labels, average_fingerprint(other))),
                 testing::AllOf(HasSubstr("regions.csv: line 1"), HasSubstr(average_fingerprint(average))));
     EXPECT_THAT(refused("# mimik regions, schema 2, average face 0\nrow,col,region\n"), HasSubstr("schema is '2'"));
-    geometry::write_atomically(file, "# drawn by hand\nrow,col,region\n0,0,mine\n");
+    base::write_atomically(file, "# drawn by hand\nrow,col,region\n0,0,mine\n");
     EXPECT_EQ(read_region_labels(file, average).label[0], "mine");
 }
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/workspace_test.h"
 
@@ -72,7 +72,7 @@ TEST_F(SourceExpression, what_is_not_there_is_named_with_what_there_is) {
 
 TEST_F(SourceExpression, subjects_who_must_not_be_shown_are_no_source_and_in_no_mean) {
     const database::TemporaryFolder folder;
-    geometry::write_atomically(folder.path() / "db" / "unallowed_subjects.txt", "bs000\n");
+    base::write_atomically(folder.path() / "db" / "unallowed_subjects.txt", "bs000\n");
     const auto workspace = test::analytic_workspace(folder.path());
     EXPECT_THAT(message_of<InputError>([&] {
                     (void)model_from_workspace(workspace, builtin_catalogue(), "12", {"bs000", {}});
@@ -85,7 +85,7 @@ TEST_F(SourceExpression, subjects_who_must_not_be_shown_are_no_source_and_in_no_
 TEST_F(SourceExpression, a_damaged_scan_leaves_the_mean_of_the_rest_and_is_kept_apart_from_points_left_out) {
     const database::TemporaryFolder folder;
     const auto workspace = test::analytic_workspace(folder.path());
-    geometry::write_atomically(workspace.root() / "faces" / "bs000" / "bs000_LFAU_12_0.json", "{}");
+    base::write_atomically(workspace.root() / "faces" / "bs000" / "bs000_LFAU_12_0.json", "{}");
     const auto mean = model_from_workspace(workspace, builtin_catalogue(), "12", {"mean", {}});
     EXPECT_EQ(mean.sources.size(), 4U);
     EXPECT_THAT(mean.unusable_scans, ElementsAre(HasSubstr("bs000_LFAU_12_0")));

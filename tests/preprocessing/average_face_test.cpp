@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "preprocessing/control_pairs.h"
 #include "preprocessing/workspace.h"
 #include "tests/support/analytic_face.h"

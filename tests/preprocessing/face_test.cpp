@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
-#include "geometry/file.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "preprocessing/workspace.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown.h"
@@ -34,7 +34,7 @@ Face small_face() {
 std::string changed(const std::string& from, const std::string& to) {
     const test::TemporaryFolder folder;
     write_face(folder.path() / "face", small_face());
-    auto text = geometry::read_text(folder.path() / "face.json");
+    auto text = base::read_text(folder.path() / "face.json");
     const auto place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
     return text.replace(place, from.size(), to);

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/delaunay.h"
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "tests/support/analytic_face.h"
 
 namespace mimik::preprocessing {

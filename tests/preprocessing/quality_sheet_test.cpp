@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/file.h"
+#include "base/file.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace_files.h"
 
@@ -29,10 +29,10 @@ struct Drawer {
         return [this](const fs::path& description, const fs::path& picture) {
             const std::scoped_lock lock(mutex);
             drawn.insert(picture.filename().string());
-            descriptions += geometry::read_text(description);
+            descriptions += base::read_text(description);
             meshes_there =
                 meshes_there && fs::exists(description.parent_path() / (picture.stem().string() + "_LFAU_12_0.ply"));
-            if (fault.empty()) geometry::write_atomically(picture, "drawn");
+            if (fault.empty()) base::write_atomically(picture, "drawn");
             return fault;
         };
     }
@@ -68,7 +68,7 @@ TEST_F(QualitySheet, a_second_run_draws_only_what_has_changed) {
     EXPECT_EQ(again.up_to_date, 3U);
     EXPECT_TRUE(second.drawn.empty());
     // A face made anew has another mark; a sheet that was deleted is missing.
-    geometry::write_atomically(workspace_.root() / "faces" / "bs000" / "bs000_LFAU_12_0.done", "other\n");
+    base::write_atomically(workspace_.root() / "faces" / "bs000" / "bs000_LFAU_12_0.done", "other\n");
     fs::remove(sheet("bs002.png"));
     EXPECT_EQ(draw(third).drawn, 2U);
     EXPECT_THAT(third.drawn, ElementsAre("bs000.png", "bs002.png"));
@@ -77,7 +77,7 @@ TEST_F(QualitySheet, a_second_run_draws_only_what_has_changed) {
 TEST_F(QualitySheet, a_sheet_that_cannot_be_drawn_is_reported_tried_again_and_leaves_no_old_one) {
     Drawer good, bad, after;
     (void)draw(good);
-    geometry::write_atomically(workspace_.root() / "faces" / "bs000" / "bs000_LFAU_12_0.done", "other\n");
+    base::write_atomically(workspace_.root() / "faces" / "bs000" / "bs000_LFAU_12_0.done", "other\n");
     bad.fault = "out of paint";
     const auto report = draw(bad);
     EXPECT_EQ(report.up_to_date, 2U);
@@ -89,7 +89,7 @@ TEST_F(QualitySheet, a_sheet_that_cannot_be_drawn_is_reported_tried_again_and_le
 TEST_F(QualitySheet, subjects_who_must_not_be_shown_get_none_and_lose_the_one_they_had) {
     Drawer drawer, later;
     (void)draw(drawer);
-    geometry::write_atomically(folder_.path() / "db" / "unallowed_subjects.txt", "bs001\n");
+    base::write_atomically(folder_.path() / "db" / "unallowed_subjects.txt", "bs001\n");
     workspace_ = test::analytic_workspace(folder_.path());
     const auto report = draw(later);
     EXPECT_EQ(report.drawn + report.up_to_date, 2U);
@@ -102,7 +102,7 @@ TEST_F(QualitySheet, meshes_that_a_killed_run_left_do_not_stay) {
     Drawer first, second;
     (void)draw(first);
     // One subject whose sheet is whole since, and one that is gone.
-    for (const char* name : {"bs000.parts", "bs777.parts"}) geometry::write_atomically(sheet(name) / "mesh.ply", "ply");
+    for (const char* name : {"bs000.parts", "bs777.parts"}) base::write_atomically(sheet(name) / "mesh.ply", "ply");
     EXPECT_EQ(draw(second).up_to_date, 3U);
     EXPECT_FALSE(fs::exists(sheet("bs000.parts")));
     EXPECT_FALSE(fs::exists(sheet("bs777.parts")));

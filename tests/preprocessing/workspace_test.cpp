@@ -12,11 +12,11 @@
 
 #include "database/bosphorus_landmarks.h"
 #include "database/hidden_subjects.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/image.h"
-#include "geometry/mesh_io.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/image.h"
+#include "io/mesh_io.h"
+#include "base/parallel.h"
 #include "geometry/surface_index.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_database.h"
@@ -42,7 +42,7 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
         if (entry.is_regular_file())
-            files[fs::relative(entry.path(), folder).string()] = geometry::read_text(entry.path());
+            files[fs::relative(entry.path(), folder).string()] = base::read_text(entry.path());
     return files;
 }
 
@@ -137,7 +137,7 @@ TEST_F(WorkspaceTest, what_a_manifest_says_of_a_scan_belongs_to_what_its_face_wa
         return preprocess_database(database, workspace_, quick());
     };
     const std::function<void(database::ScanEntry&)> corrections[] = {
-        [](database::ScanEntry& entry) { entry.unit = geometry::LengthUnit::metre; },
+        [](database::ScanEntry& entry) { entry.unit = io::LengthUnit::metre; },
         [](database::ScanEntry& entry) { entry.sex = "f"; },
         [](database::ScanEntry& entry) { entry.texture_file = "other.png"; }};
     (void)preprocess();
@@ -159,7 +159,7 @@ TEST_F(WorkspaceTest, an_image_that_only_the_scan_file_names_counts_from_the_run
             if (p.allFinite()) mesh.vertices_mm.push_back(p);
         mesh.texture_coordinates.assign(mesh.vertices_mm.size(), {0.5, 0.5});
         entry.scan_file.replace_extension(".ply");
-        geometry::write_mesh(entry.scan_file, mesh, {.texture_file = "skin.png"});
+        io::write_mesh(entry.scan_file, mesh, {.texture_file = "skin.png"});
     }
     const auto run = [&] { return preprocess_database(database, workspace_, quick()); };
     const auto texture_of = [&](const char* name) {
@@ -168,7 +168,7 @@ TEST_F(WorkspaceTest, an_image_that_only_the_scan_file_names_counts_from_the_run
     EXPECT_EQ(run().preprocessed, 6U);
     EXPECT_EQ(run().up_to_date, 6U);
     EXPECT_EQ(texture_of("bs001_LFAU_12_0"), "");
-    geometry::write_png(image, {2, 2, std::vector<std::uint8_t>(12, 99)});
+    io::write_png(image, {2, 2, std::vector<std::uint8_t>(12, 99)});
     EXPECT_EQ(run().preprocessed, 2U);  // neutral and smile
     EXPECT_EQ(texture_of("bs001_N_N_0"), image);
     EXPECT_EQ(texture_of("bs001_LFAU_12_0"), image);
@@ -183,7 +183,7 @@ TEST_F(WorkspaceTest, an_image_or_image_landmarks_that_come_change_or_go_make_th
         return database_ / "bs001" / (std::string("bs001_N_N_0") + extension);
     };
     const auto write_image = [&](int width, int height) {
-        geometry::write_png(
+        io::write_png(
             name(".png"), {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), 99)});
     };
     // Pixels of a photograph that stands on its head: the texture coordinates have to be turned.
@@ -207,7 +207,7 @@ TEST_F(WorkspaceTest, an_image_or_image_landmarks_that_come_change_or_go_make_th
     using testing::IsEmpty;
     const auto turned = testing::Contains(HasSubstr("texture coordinates lie u to the right, v up and were turned"));
     write_image(150, 180);
-    geometry::write_atomically(name(".lm2"), "# damaged\n");
+    base::write_atomically(name(".lm2"), "# damaged\n");
     (void)preprocess();
     write_marks();
     EXPECT_THAT(expect_anew("mended"), turned);
@@ -223,7 +223,7 @@ TEST_F(WorkspaceTest, an_image_or_image_landmarks_that_come_change_or_go_make_th
 
 TEST_F(WorkspaceTest, remarks_of_every_face_written_in_a_run_come_once_also_of_neutrals_that_are_only_tied_anew) {
     for (const char* name : {"bs001_N_N_0", "bs001_LFAU_12_0"})
-        geometry::write_atomically(database_ / "bs001" / (std::string(name) + ".lm2"), "# damaged\n");
+        base::write_atomically(database_ / "bs001" / (std::string(name) + ".lm2"), "# damaged\n");
     const auto remarked = [](const PreprocessReport& report) {
         std::vector<std::string> scans;
         for (const auto& remark : report.remarks)
@@ -306,11 +306,11 @@ TEST_F(WorkspaceTest, an_image_beside_a_mesh_without_texture_coordinates_is_no_t
             if (with_coordinates) mesh.texture_coordinates.push_back(loaded.scan.texture_coordinates[i]);
         }
         const auto stem = entry.id.subject + "/" + entry.id.name();
-        geometry::write_mesh(database_ / (stem + ".ply"), mesh);
-        geometry::write_png(database_ / (stem + ".png"), {2, 2, std::vector<std::uint8_t>(12, 99)});
+        io::write_mesh(database_ / (stem + ".ply"), mesh);
+        io::write_png(database_ / (stem + ".png"), {2, 2, std::vector<std::uint8_t>(12, 99)});
         manifest += fmt::format("{},{},{}.ply,{}.lm3\n", entry.id.subject, entry.id.code, stem, stem);
     }
-    geometry::write_atomically(database_ / "manifest.csv", manifest);
+    base::write_atomically(database_ / "manifest.csv", manifest);
     const auto report = preprocess();
     EXPECT_TRUE(report.failures.empty());
     const Workspace workspace(workspace_);
@@ -354,7 +354,7 @@ TEST_F(WorkspaceTest, another_stable_region_aligns_the_scans_anew_and_marks_do_n
     auto options = quick();
     options.stable_region_name = "another catalogue";
     EXPECT_EQ(preprocess(options).preprocessed, 3U);  // the neutrals have nothing to be aligned to
-    EXPECT_THAT(geometry::read_text(face_file("bs001_LFAU_12_0.done")), testing::Not(HasSubstr("bs002")));
+    EXPECT_THAT(base::read_text(face_file("bs001_LFAU_12_0.done")), testing::Not(HasSubstr("bs002")));
 }
 
 TEST_F(WorkspaceTest, an_average_face_that_could_not_be_written_whole_is_not_taken_for_finished) {
@@ -378,7 +378,7 @@ TEST_F(WorkspaceTest, a_cloud_with_front_and_back_is_refused_and_the_rest_is_don
                 for (const double behind_mm : {0.0, 60.0})
                     mesh.vertices_mm.emplace_back(p.x() + behind_mm / 100, p.y(), p.z() - behind_mm);
         entry.scan_file.replace_extension(".ply");
-        geometry::write_mesh(entry.scan_file, mesh);
+        io::write_mesh(entry.scan_file, mesh);
     }
     const auto report = preprocess_database(database, workspace_, quick());
     ASSERT_EQ(report.failures.size(), 1U);
@@ -406,14 +406,14 @@ TEST_F(WorkspaceTest, a_database_is_never_written_into_but_a_folder_around_or_be
 
 TEST_F(WorkspaceTest, a_folder_that_takes_no_faces_is_found_out_before_any_scan_is_read) {
     const auto database = database::open_database(database_);
-    geometry::write_atomically(folder_.path() / "file", "mine");
+    base::write_atomically(folder_.path() / "file", "mine");
     for (const auto& scan : database.scans) fs::resize_file(scan.scan_file, 0);  // reading any would fail otherwise
     EXPECT_THAT(message_of<InputError>([&] { (void)preprocess_database(database, folder_.path() / "file", quick()); }),
                 HasSubstr("file: is a file; give a folder"));
     EXPECT_THAT(
         message_of<InputError>([&] { (void)preprocess_database(database, folder_.path() / "file" / "x", quick()); }),
         HasSubstr("file/x: the folder cannot be made"));
-    EXPECT_EQ(geometry::read_text(folder_.path() / "file"), "mine");
+    EXPECT_EQ(base::read_text(folder_.path() / "file"), "mine");
 }
 
 TEST_F(WorkspaceTest, a_scan_without_landmarks_is_told_which_file_it_lacks) {
@@ -430,7 +430,7 @@ TEST_F(WorkspaceTest, a_scan_without_landmarks_is_told_which_file_it_lacks) {
 TEST_F(WorkspaceTest, a_workspace_knows_whether_its_database_had_a_truth) {
     (void)preprocess();
     EXPECT_FALSE(Workspace(workspace_).made_with_truth());
-    geometry::write_atomically(database_ / "truth" / "truth.json", "{}");
+    base::write_atomically(database_ / "truth" / "truth.json", "{}");
     (void)preprocess();
     EXPECT_TRUE(Workspace(workspace_).made_with_truth());
 }
@@ -443,9 +443,9 @@ TEST_F(WorkspaceTest, a_run_that_ends_half_way_leaves_no_workspace_and_the_next_
     const auto stop = [](const std::string& scan) {
         if (scan == "bs001_LFAU_12_0") throw Stopped();
     };
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     EXPECT_THROW((void)preprocess_database(database::open_database(database_), workspace_, options, {}, stop), Stopped);
-    geometry::set_thread_count(0);
+    base::set_thread_count(0);
     EXPECT_THAT(message_of<InputError>([&] { Workspace{workspace_}; }), HasSubstr("no finished workspace there"));
     const auto report = preprocess(options);
     EXPECT_EQ(report.preprocessed + report.up_to_date, 6U);
@@ -540,19 +540,19 @@ TEST(AlignToNeutral, a_jaw_that_rests_elsewhere_turns_the_forehead_less_than_if_
 
 TEST_F(WorkspaceTest, one_and_two_threads_write_the_same_bytes) {
     fs::resize_file(database_ / "bs001" / "bs001_LFAU_12_0.bnt", 1000);  // failures are listed in one order, too
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     (void)preprocess();
     const auto one = contents(workspace_);
     fs::remove_all(workspace_);
-    geometry::set_thread_count(2);
+    base::set_thread_count(2);
     (void)preprocess();
-    geometry::set_thread_count(0);
+    base::set_thread_count(0);
     EXPECT_EQ(contents(workspace_), one);
     EXPECT_EQ(one.size(), 3 * 5 + 2 + 1U);  // 5 faces of .ply, .json, .done; the average face; workspace.json
 }
 
 TEST_F(WorkspaceTest, hidden_subjects_are_known_to_the_workspace) {
-    geometry::write_atomically(database_ / "unallowed_subjects.txt", "BS001\n");
+    base::write_atomically(database_ / "unallowed_subjects.txt", "BS001\n");
     (void)preprocess();
     const Workspace workspace(workspace_);
     EXPECT_TRUE(workspace.hidden("bs001"));
@@ -563,11 +563,11 @@ TEST_F(WorkspaceTest, hidden_subjects_are_known_to_the_workspace) {
 
 TEST_F(WorkspaceTest, bare_files_of_hidden_subjects_are_refused_in_a_workspace_until_they_may_be_shown_again) {
     const auto list = database_ / "unallowed_subjects.txt";
-    geometry::write_atomically(list, "BS001\n");
+    base::write_atomically(list, "BS001\n");
     (void)preprocess();
     EXPECT_THROW(database::refuse_hidden_file(face_file("bs001_N_N_0.ply")), InputError);
     EXPECT_NO_THROW(database::refuse_hidden_file(face_file("bs000_N_N_0.ply")));
-    geometry::write_atomically(list, "bs000\n");
+    base::write_atomically(list, "bs000\n");
     (void)preprocess();
     EXPECT_THROW(database::refuse_hidden_file(face_file("bs000_N_N_0.ply")), InputError);
     EXPECT_NO_THROW(database::refuse_hidden_file(face_file("bs001_N_N_0.ply")));
@@ -580,23 +580,23 @@ TEST_F(WorkspaceTest, bare_files_of_hidden_subjects_are_refused_in_a_workspace_u
 TEST_F(WorkspaceTest, a_list_that_somebody_put_into_the_workspace_is_kept_and_only_grows) {
     (void)preprocess();
     const auto list = workspace_ / "unallowed_subjects.txt";
-    geometry::write_atomically(list, "bs000");
+    base::write_atomically(list, "bs000");
     (void)preprocess();
-    EXPECT_EQ(geometry::read_text(list), "bs000");
-    geometry::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
+    EXPECT_EQ(base::read_text(list), "bs000");
+    base::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
     (void)preprocess();
     (void)preprocess();
-    EXPECT_EQ(geometry::read_text(list), "bs000\nbs001\n");
+    EXPECT_EQ(base::read_text(list), "bs000\nbs001\n");
 }
 
 TEST_F(WorkspaceTest, who_is_put_on_the_list_after_preprocessing_is_hidden_at_once) {
-    geometry::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
+    base::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
     (void)preprocess();
-    geometry::write_atomically(folder_.path() / "unallowed_subjects.txt", "BS000\nsomebody else\n");  // above both
+    base::write_atomically(folder_.path() / "unallowed_subjects.txt", "BS000\nsomebody else\n");  // above both
     EXPECT_TRUE(Workspace(workspace_).hidden("bs000"));
     fs::remove(folder_.path() / "unallowed_subjects.txt");
     EXPECT_FALSE(Workspace(workspace_).hidden("bs000"));
-    geometry::write_atomically(database_ / "unallowed_subjects.txt", "2\n");
+    base::write_atomically(database_ / "unallowed_subjects.txt", "2\n");
     const Workspace workspace(workspace_);
     EXPECT_TRUE(workspace.hidden("bs002"));
     EXPECT_TRUE(workspace.hidden("bs001"));  // as it was preprocessed
@@ -607,8 +607,8 @@ TEST_F(WorkspaceTest, who_is_put_on_the_list_after_preprocessing_is_hidden_at_on
 TEST_F(WorkspaceTest, the_sheet_of_a_subject_hidden_since_is_deleted_by_the_next_preprocessing) {
     (void)preprocess();
     for (const char* name : {"bs001.png", "bs001.done", "bs000.png"})
-        geometry::write_atomically(workspace_ / "sheets" / name, "a sheet");
-    geometry::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
+        base::write_atomically(workspace_ / "sheets" / name, "a sheet");
+    base::write_atomically(database_ / "unallowed_subjects.txt", "bs001\n");
     (void)preprocess();
     EXPECT_FALSE(fs::exists(workspace_ / "sheets/bs001.png"));
     EXPECT_FALSE(fs::exists(workspace_ / "sheets/bs001.done"));
@@ -644,7 +644,7 @@ TEST_F(WorkspaceTest, what_is_missing_or_damaged_is_named) {
     fs::remove(face_file("bs001_N_N_0.ply"));
     EXPECT_THAT(message_of<InputError>([&] { (void)workspace.face(workspace.neutral("bs001")); }),
                 HasSubstr("bs001_N_N_0.ply"));
-    geometry::write_atomically(face_file("bs002_N_N_0.json"), "{}");
+    base::write_atomically(face_file("bs002_N_N_0.json"), "{}");
     EXPECT_THAT(message_of<InputError>([&] { (void)workspace.face(workspace.neutral("bs002")); }),
                 HasSubstr("bs002_N_N_0.json: schema is 0"));
 }
@@ -672,8 +672,8 @@ TEST_F(WorkspaceTest, a_face_reads_back_bit_for_bit) {
     const Workspace workspace(workspace_);
     const auto face = workspace.face(workspace.neutral("bs000"));
     write_face(folder_.path() / "copy", face);
-    EXPECT_EQ(geometry::read_text(folder_.path() / "copy.ply"), geometry::read_text(face_file("bs000_N_N_0.ply")));
-    EXPECT_EQ(geometry::read_text(folder_.path() / "copy.json"), geometry::read_text(face_file("bs000_N_N_0.json")));
+    EXPECT_EQ(base::read_text(folder_.path() / "copy.ply"), base::read_text(face_file("bs000_N_N_0.ply")));
+    EXPECT_EQ(base::read_text(folder_.path() / "copy.json"), base::read_text(face_file("bs000_N_N_0.json")));
     std::size_t outside = 0;
     for (std::size_t v = 0; v < face.grid.size(); ++v)
         if (!face.grid.inside(v)) {

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/file.h"
+#include "base/file.h"
 #include "synthesis/truth.h"
 #include "tests/support/analytic_database.h"
 
@@ -59,7 +59,7 @@ inline void write_analytic_truth(const std::filesystem::path& root) {
                                        {"landmark_vertices", nlohmann::json::object()}}},
                                      {"subjects", nlohmann::json::array()},
                                      {"scans", scans}};
-    geometry::write_atomically(root / "truth" / "truth.json", document.dump());
+    base::write_atomically(root / "truth" / "truth.json", document.dump());
 }
 
 }  // namespace mimik::test

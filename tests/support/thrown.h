@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 
 namespace mimik::test {
 

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "geometry/landmarks.h"
 #include "synthesis/builtin_measurements.h"
 #include "synthesis/builtin_sheet.h"

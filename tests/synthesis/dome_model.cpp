@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "synthesis/random_stream.h"
+#include "base/random_stream.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -64,7 +64,7 @@ public:
     const std::map<std::string, std::uint32_t>& landmark_vertices() const override { return marks_; }
     const std::vector<std::string>& vertex_regions() const override { return regions_; }
     Identity draw_identity(std::uint64_t seed, Sex sex, double spread) const override {
-        return {sex, seed, {spread * RandomStream(seed).normal()}, {}};
+        return {sex, seed, {spread * base::RandomStream(seed).normal()}, {}};
     }
     std::vector<geometry::Point> neutral_mm(const Identity& identity) const override {
         auto face = mean_;

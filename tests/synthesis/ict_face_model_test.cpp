@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "geometry/landmarks.h"
 #include "synthesis/expression.h"
 #include "synthesis/face_model.h"

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/errors.h"
+#include "base/errors.h"
 #include "synthesis/depth_raster.h"
 #include "tests/synthesis/dome_model.h"
 

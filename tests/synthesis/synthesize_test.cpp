@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #include "database/scan_database.h"
-#include "geometry/errors.h"
-#include "geometry/file.h"
-#include "geometry/parallel.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/parallel.h"
 #include "synthesis/truth.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/synthesis/dome_model.h"
@@ -32,7 +32,7 @@ protected:
         options_.expressions = "12,12L,1";
     }
     void TearDown() override {
-        geometry::set_thread_count(0);
+        base::set_thread_count(0);
         fs::remove_all(folder_);
     }
     fs::path folder_;
@@ -43,7 +43,7 @@ std::map<std::string, std::vector<std::uint8_t>> all_files(const fs::path& root)
     std::map<std::string, std::vector<std::uint8_t>> files;
     for (const auto& entry : fs::recursive_directory_iterator(root))
         if (entry.is_regular_file())
-            files[fs::relative(entry.path(), root).string()] = geometry::read_bytes(entry.path());
+            files[fs::relative(entry.path(), root).string()] = base::read_bytes(entry.path());
     return files;
 }
 
@@ -87,7 +87,7 @@ TEST_F(Synthesize, truth_holds_the_pose_and_the_displacement_from_the_resting_fa
 // Memory goes with the subjects in the making. 16 subjects of one scan on 8 threads: unbounded, the second half begins
 // beside the first.
 TEST_F(Synthesize, at_most_eight_subjects_are_in_the_making_at_a_time) {
-    geometry::set_thread_count(8);
+    base::set_thread_count(8);
     options_.subjects = 16;
     options_.neutrals = 1;
     options_.expressions = "N";
@@ -100,9 +100,9 @@ TEST_F(Synthesize, at_most_eight_subjects_are_in_the_making_at_a_time) {
 
 TEST_F(Synthesize, same_bytes_on_one_thread_and_on_three) {
     const auto model = make_dome_model();
-    geometry::set_thread_count(1);
+    base::set_thread_count(1);
     (void)synthesize_database(folder_ / "one", *model, options_);
-    geometry::set_thread_count(3);
+    base::set_thread_count(3);
     (void)synthesize_database(folder_ / "three", *model, options_);
     EXPECT_EQ(all_files(folder_ / "one"), all_files(folder_ / "three"));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);  // no unfinished folder
@@ -128,7 +128,7 @@ TEST_F(Synthesize, a_place_that_cannot_be_or_a_disk_that_is_too_small_is_found_b
         return database::message_of<InputError>([&] { check_database_place(out, bytes); });
     };
     EXPECT_THAT(refused(folder_ / "db", std::numeric_limits<std::uintmax_t>::max()), HasSubstr("MB free"));
-    geometry::write_atomically(folder_ / "full" / "notes.txt", "mine");
+    base::write_atomically(folder_ / "full" / "notes.txt", "mine");
     EXPECT_THAT(refused(folder_ / "full", 0), HasSubstr("exists already"));
     EXPECT_THAT(refused(folder_ / "full/notes.txt/db", 0), HasSubstr("notes.txt"));
 }
@@ -142,9 +142,9 @@ TEST_F(Synthesize, expressions_without_a_shape_are_left_out_by_name) {
 
 TEST_F(Synthesize, what_lies_beside_the_new_database_is_left_alone_and_nothing_is_left_there) {
     const auto model = make_dome_model();
-    geometry::write_atomically(folder_ / "db.part" / "notes.txt", "mine");
+    base::write_atomically(folder_ / "db.part" / "notes.txt", "mine");
     (void)synthesize_database(folder_ / "db", *model, options_);
-    EXPECT_EQ(geometry::read_text(folder_ / "db.part" / "notes.txt"), "mine");
+    EXPECT_EQ(base::read_text(folder_ / "db.part" / "notes.txt"), "mine");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);
     options_.on_scan_done = [](const std::string&) { throw InputError("stopped"); };
     EXPECT_THROW((void)synthesize_database(folder_ / "stopped", *model, options_), InputError);

@@ -1,0 +1,241 @@
+#include "io/formats/obj.h"
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "io/formats/bytes.h"
+
+namespace mimik::io::formats {
+
+using geometry::Mesh;
+
+namespace {
+
+constexpr std::uint32_t no_texture = std::numeric_limits<std::uint32_t>::max();
+constexpr std::string_view material_name = "face";
+
+class ObjReader {
+public:
+    ObjReader(std::span<const std::uint8_t> bytes, const std::string& name) : lines_(as_text(bytes), name) {}
+
+    MeshFile read() {
+        while (next_statement()) {
+            const auto keyword = base::next_word(rest_);
+            if (keyword == "v")
+                read_vertex();
+            else if (keyword == "vt")
+                read_texture_coordinate();
+            else if (keyword == "f")
+                read_face();
+            else if (keyword == "mtllib" && file_.texture_file.empty())
+                file_.texture_file = base::trimmed(rest_);
+        }
+        finish_colours();
+        finish_texture();
+        return std::move(file_);
+    }
+
+private:
+    /// The next line, with those that a backslash at the end joins to it.
+    bool next_statement() {
+        if (!lines_.next()) return false;
+        rest_ = lines_.line();
+        if (!rest_.ends_with('\\')) return true;
+        joined_.assign(rest_);
+        while (joined_.ends_with('\\')) {
+            joined_.back() = ' ';
+            if (!lines_.next()) break;
+            joined_ += lines_.line();
+        }
+        rest_ = joined_;
+        return true;
+    }
+
+    double number(std::string_view word, std::string_view what) {
+        const auto value = base::parse_double(word);
+        if (!value || !std::isfinite(*value))
+            lines_.fail(
+                fmt::format("{} is {}, not a finite number", what, word.empty() ? "missing" : base::in_quotes(word)));
+        return *value;
+    }
+
+    void read_vertex() {
+        std::array<double, 7> values{};
+        std::size_t count = 0;
+        for (auto word = base::next_word(rest_); !word.empty() && !word.starts_with('#');
+             word = base::next_word(rest_)) {
+            if (count == values.size()) lines_.fail("a vertex has more than 7 numbers (x y z w r g b)");
+            constexpr std::array<std::string_view, 7> names = {"x",          "y",          "z",         "4th number",
+                                                               "5th number", "6th number", "7th number"};
+            values[count] = number(word, names[count]);
+            ++count;
+        }
+        if (count < 3 || count == 5)
+            lines_.fail(fmt::format("a vertex has {} numbers; it needs x y z, or x y z r g b", count));
+        file_.mesh.vertices_mm.emplace_back(values[0], values[1], values[2]);
+        if (count >= 6) {
+            const auto first = count == 6 ? 3U : 4U;
+            if (colours_.size() + 1 != file_.mesh.vertices_mm.size())
+                lines_.fail("this vertex has a colour and an earlier one has none; give all of them one, or none");
+            colours_.push_back({values[first], values[first + 1], values[first + 2]});
+        } else if (!colours_.empty()) {
+            lines_.fail("this vertex has no colour and the earlier ones have; give all of them one, or none");
+        }
+    }
+
+    void read_texture_coordinate() {
+        const double u = number(base::next_word(rest_), "texture u");
+        const auto word = base::next_word(rest_);
+        file_.mesh.texture_coordinates.emplace_back(u, word.empty() ? 0.0 : number(word, "texture v"));
+    }
+
+    std::uint32_t index(std::string_view word, std::size_t count, std::string_view what) {
+        const auto value = base::parse_integer(word);
+        if (!value) lines_.fail(fmt::format("{} index is {}, not a whole number", what, base::in_quotes(word)));
+        const auto there_are = static_cast<std::int64_t>(count);
+        if (*value >= 1 && *value <= there_are) return static_cast<std::uint32_t>(*value - 1);
+        if (*value < 0 && *value >= -there_are) return static_cast<std::uint32_t>(there_are + *value);
+        // A file may name vertices before it gives them; that is checked when all are known.
+        if (*value > there_are && *value < no_texture) return static_cast<std::uint32_t>(*value - 1);
+        lines_.fail(fmt::format("{} index is {}; so far there are {} (indices count from 1, or backward from -1)", what,
+                                *value, there_are));
+    }
+
+    void read_face() {
+        auto& faces = file_.mesh.faces;
+        std::size_t corners = 0;
+        for (auto word = base::next_word(rest_); !word.empty() && !word.starts_with('#');
+             word = base::next_word(rest_)) {
+            const auto slash = word.find('/');
+            const auto vertex = index(word.substr(0, slash), file_.mesh.vertices_mm.size(), "vertex");
+            if (vertex >= largest_vertex_) {
+                largest_vertex_ = vertex;
+                largest_vertex_line_ = lines_.number();
+            }
+            auto texture = no_texture;
+            if (slash != std::string_view::npos) {
+                auto second = word.substr(slash + 1);
+                second = second.substr(0, second.find('/'));
+                if (!second.empty()) {
+                    texture = index(second, file_.mesh.texture_coordinates.size(), "texture");
+                    if (texture >= largest_texture_) {
+                        largest_texture_ = texture;
+                        largest_texture_line_ = lines_.number();
+                    }
+                    any_texture_ = true;
+                }
+            }
+            faces.corners.push_back(vertex);
+            faces.texture_corners.push_back(texture);
+            ++corners;
+        }
+        if (corners < 3) lines_.fail(fmt::format("a face has {} corners; it needs at least 3", corners));
+        faces.first.push_back(static_cast<std::uint32_t>(faces.corners.size()));
+    }
+
+    void finish_colours() {
+        // The usual writers give reals in [0, 1]; some give bytes.
+        double largest = 0;
+        for (const auto& c : colours_) largest = std::max({largest, c[0], c[1], c[2]});
+        const double scale = largest > 1.0 ? 1.0 : 255.0;
+        for (const auto& c : colours_)
+            file_.mesh.colours.push_back(
+                {colour_byte(c[0], scale), colour_byte(c[1], scale), colour_byte(c[2], scale)});
+    }
+
+    void finish_texture() {
+        auto& mesh = file_.mesh;
+        const auto check = [&](std::uint32_t largest, std::size_t line, std::size_t count, std::string_view what) {
+            if (line > 0 && largest >= count)
+                throw InputError(
+                    fmt::format("{}: line {}: {} index is {}, but the file has {}; it is truncated or damaged",
+                                lines_.file_name(), line, what, std::size_t{largest} + 1, count));
+        };
+        check(largest_vertex_, largest_vertex_line_, mesh.vertices_mm.size(), "vertex");
+        check(largest_texture_, largest_texture_line_, mesh.texture_coordinates.size(), "texture");
+        auto& texture = mesh.faces.texture_corners;
+        if (!any_texture_) {
+            texture.clear();
+            if (mesh.texture_coordinates.size() != mesh.vertices_mm.size()) mesh.texture_coordinates.clear();
+            return;
+        }
+        if (std::find(texture.begin(), texture.end(), no_texture) != texture.end()) {
+            std::replace(texture.begin(), texture.end(), no_texture,
+                         static_cast<std::uint32_t>(mesh.texture_coordinates.size()));
+            mesh.texture_coordinates.emplace_back(0.0, 0.0);
+        }
+        if (mesh.texture_coordinates.size() == mesh.vertices_mm.size() && texture == mesh.faces.corners)
+            texture.clear();
+    }
+
+    base::LineReader lines_;
+    std::string_view rest_;
+    std::string joined_;
+    MeshFile file_;
+    std::vector<std::array<double, 3>> colours_;
+    std::uint32_t largest_vertex_ = 0, largest_texture_ = 0;
+    std::size_t largest_vertex_line_ = 0, largest_texture_line_ = 0;
+    bool any_texture_ = false;
+};
+
+}  // namespace
+
+MeshFile decode_obj(std::span<const std::uint8_t> bytes, const std::string& name) {
+    return ObjReader(bytes, name).read();
+}
+
+std::string texture_of_material(std::string_view mtl, const std::string& name) {
+    base::LineReader lines(mtl, name);
+    while (lines.next()) {
+        std::string_view rest = lines.line();
+        if (!base::equal_ignoring_case(base::next_word(rest), "map_Kd")) continue;
+        // Options such as "-s 1 1 1" stand before the name, which is the rest of the line if there are none.
+        auto file = base::trimmed(rest);
+        if (file.starts_with('-')) {
+            const auto blank = file.find_last_of(" \t");
+            file = blank == std::string_view::npos ? file : file.substr(blank + 1);
+        }
+        if (!file.empty()) return std::string(file);
+    }
+    return {};
+}
+
+void encode_obj(std::ostream& out, const Mesh& mesh, const std::string& material_file) {
+    std::string text = "# lengths in millimetres\n";
+    const auto into = std::back_inserter(text);
+    if (!material_file.empty()) text += fmt::format("mtllib {}\nusemtl {}\n", material_file, material_name);
+    for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+        const auto& p = mesh.vertices_mm[i];
+        fmt::format_to(into, "v {:.17g} {:.17g} {:.17g}", p.x(), p.y(), p.z());
+        if (!mesh.colours.empty()) {
+            const auto& c = mesh.colours[i];
+            fmt::format_to(into, " {:.6f} {:.6f} {:.6f}", c[0] / 255.0, c[1] / 255.0, c[2] / 255.0);
+        }
+        text += '\n';
+    }
+    for (const auto& t : mesh.texture_coordinates) fmt::format_to(into, "vt {:.17g} {:.17g}\n", t.x(), t.y());
+    const auto& texture = mesh.faces.texture_corners.empty() ? mesh.faces.corners : mesh.faces.texture_corners;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        text += 'f';
+        for (auto k = mesh.faces.first[f]; k < mesh.faces.first[f + 1]; ++k) {
+            if (mesh.texture_coordinates.empty())
+                fmt::format_to(into, " {}", mesh.faces.corners[k] + 1);
+            else
+                fmt::format_to(into, " {}/{}", mesh.faces.corners[k] + 1, texture[k] + 1);
+        }
+        text += '\n';
+    }
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+std::string material_with_texture(const std::string& texture_file) {
+    return fmt::format("newmtl {}\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd {}\n", material_name, texture_file);
+}
+
+}  // namespace mimik::io::formats

@@ -1,0 +1,422 @@
+#include "io/glb.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/errors.h"
+#include "base/file.h"
+#include "io/formats/bytes.h"
+
+namespace mimik::io {
+
+using geometry::Faces;
+using geometry::Mesh;
+using geometry::TextureCoordinate;
+using geometry::Triangle;
+using geometry::Vector;
+using geometry::VertexAttribute;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using formats::append;
+
+constexpr double metres_per_mm = 1e-3;
+constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
+// Numbers that the glTF 2.0 specification fixes.
+constexpr int type_uint8 = 5121, type_uint32 = 5125, type_float = 5126;
+constexpr int target_vertices = 34962, target_indices = 34963;
+constexpr std::array<const char*, 4> vector_types = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+constexpr std::array<std::uint8_t, 8> png_signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+
+Json object_of(const std::vector<std::pair<std::string, std::string>>& entries) {
+    Json object = Json::object();
+    for (const auto& [key, value] : entries) object[key] = value;
+    return object;
+}
+
+/// The binary chunk and what the JSON says about it.
+class Buffer {
+public:
+    /// Vectors as 32-bit floats; min and max, where asked for, are those of the rounded numbers.
+    std::size_t add_floats(std::span<const Eigen::Vector3d> vectors, double scale, bool with_range) {
+        const auto view = begin_view(target_vertices);
+        Eigen::Vector3f smallest = Eigen::Vector3f::Constant(std::numeric_limits<float>::max()), largest = -smallest;
+        for (const auto& v : vectors) {
+            const Eigen::Vector3f rounded = (v * scale).cast<float>();
+            for (const float x : rounded) append(bytes_, x);
+            smallest = smallest.cwiseMin(rounded);
+            largest = largest.cwiseMax(rounded);
+        }
+        Json accessor = end_view(view, type_float, "VEC3", vectors.size());
+        if (with_range) {
+            accessor["min"] = {smallest.x(), smallest.y(), smallest.z()};
+            accessor["max"] = {largest.x(), largest.y(), largest.z()};
+        }
+        return keep(std::move(accessor));
+    }
+
+    std::size_t add_texture_coordinates(std::span<const TextureCoordinate> coordinates) {
+        const auto view = begin_view(target_vertices);
+        for (const auto& t : coordinates) {
+            append(bytes_, static_cast<float>(t.x()));
+            append(bytes_, static_cast<float>(1.0 - t.y()));
+        }
+        return keep(end_view(view, type_float, "VEC2", coordinates.size()));
+    }
+
+    std::size_t add_attribute(const VertexAttribute& attribute) {
+        const auto view = begin_view(target_vertices);
+        for (const double value : attribute.values) append(bytes_, static_cast<float>(value));
+        const auto components = static_cast<std::size_t>(attribute.components);
+        return keep(end_view(view, type_float, vector_types[components - 1], attribute.values.size() / components));
+    }
+
+    std::size_t add_colours(std::span<const std::array<std::uint8_t, 3>> colours) {
+        const auto view = begin_view(target_vertices);
+        // Four channels, since a vertex must begin at a multiple of 4 bytes.
+        for (const auto& c : colours) {
+            for (const auto channel : c) append(bytes_, linear(channel));
+            append(bytes_, std::uint8_t{255});
+        }
+        Json accessor = end_view(view, type_uint8, "VEC4", colours.size());
+        accessor["normalized"] = true;
+        return keep(std::move(accessor));
+    }
+
+    std::size_t add_indices(std::span<const Triangle> triangles) {
+        const auto view = begin_view(target_indices);
+        for (const auto& t : triangles)
+            for (const auto corner : t) append(bytes_, corner);
+        return keep(end_view(view, type_uint32, "SCALAR", 3 * triangles.size()));
+    }
+
+    std::size_t add_image(std::span<const std::uint8_t> png) {
+        const auto view = begin_view(std::nullopt);
+        bytes_.append(formats::as_text(png));
+        views.back()["byteLength"] = png.size();
+        return view;
+    }
+
+    [[nodiscard]] const std::string& bytes() const { return bytes_; }
+    Json views = Json::array(), accessors = Json::array();
+
+private:
+    /// Vertex colours are linear light in glTF, ours are sRGB as pictures are.
+    static std::uint8_t linear(std::uint8_t srgb) {
+        const double c = srgb / 255.0;
+        return static_cast<std::uint8_t>(
+            std::lround(255.0 * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4))));
+    }
+
+    std::size_t begin_view(std::optional<int> target) {
+        bytes_.resize((bytes_.size() + 3) / 4 * 4);
+        Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", 0}};
+        if (target) view["target"] = *target;
+        views.push_back(std::move(view));
+        return views.size() - 1;
+    }
+    Json end_view(std::size_t view, int component_type, const char* type, std::size_t count) {
+        views[view]["byteLength"] = bytes_.size() - views[view]["byteOffset"].get<std::size_t>();
+        return {{"bufferView", view}, {"componentType", component_type}, {"count", count}, {"type", type}};
+    }
+    std::size_t keep(Json accessor) {
+        accessors.push_back(std::move(accessor));
+        return accessors.size() - 1;
+    }
+
+    std::string bytes_;
+};
+
+/// GLB has 32-bit floats: what is a number of 64 bits need not be one there.
+template <class Vectorlike>
+bool finite_as_float(const Vectorlike& v) {
+    return v.template cast<float>().allFinite();
+}
+
+/// The name in glTF of a vertex attribute of Mimik's own: "displacement_mm" is _DISPLACEMENT_MM.
+std::string semantic(const VertexAttribute& attribute) {
+    std::string name = '_' + attribute.name;
+    for (char& c : name)
+        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    return name;
+}
+
+void check(const GlbMesh& mesh) {
+    const auto n = mesh.positions_mm.size();
+    const auto refuse = [&](const std::string& what) {
+        throw InputError(fmt::format("GLB mesh '{}': {}", mesh.name, what));
+    };
+    const auto not_finite = [&](const std::string& what) {
+        throw NumericalError(fmt::format("GLB mesh '{}': {} is not a finite 32-bit number", mesh.name, what));
+    };
+    if (mesh.triangles.empty()) refuse("there is no triangle");
+    if (!mesh.normals.empty() && mesh.normals.size() != n)
+        refuse(fmt::format("{} normals for {} vertices", mesh.normals.size(), n));
+    if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != n)
+        refuse(fmt::format("{} texture positions for {} vertices", mesh.texture_coordinates.size(), n));
+    if (!mesh.colours.empty() && mesh.colours.size() != n)
+        refuse(fmt::format("{} colours for {} vertices", mesh.colours.size(), n));
+    for (const auto& t : mesh.triangles)
+        for (const auto corner : t) {
+            if (corner >= n) refuse(fmt::format("a triangle names vertex {} of {}", corner, n));
+            if (!finite_as_float(mesh.positions_mm[corner]))
+                not_finite(fmt::format("the position of vertex {}", corner));
+            if (!mesh.texture_coordinates.empty() && !finite_as_float(mesh.texture_coordinates[corner]))
+                not_finite(fmt::format("the texture position of vertex {}", corner));
+        }
+    if (!mesh.texture_png.empty()) {
+        if (mesh.texture_coordinates.empty()) refuse("there is a texture but no texture positions");
+        if (!std::equal(png_signature.begin(), png_signature.end(), mesh.texture_png.begin(),
+                        mesh.texture_png.begin() +
+                            static_cast<std::ptrdiff_t>(std::min(png_signature.size(), mesh.texture_png.size()))))
+            refuse("the texture is not a PNG file");
+    }
+    for (const auto& target : mesh.morph_targets) {
+        if (!std::isfinite(static_cast<float>(target.weight)))
+            not_finite(fmt::format("morph target '{}': weight {}", target.name, target.weight));
+        if (target.displacement_mm.size() != n)
+            refuse(fmt::format("morph target '{}' has {} displacements for {} vertices", target.name,
+                               target.displacement_mm.size(), n));
+        for (const auto& t : mesh.triangles)
+            for (const auto corner : t)
+                if (!finite_as_float(target.displacement_mm[corner]))
+                    not_finite(fmt::format("morph target '{}': the displacement of vertex {}", target.name, corner));
+    }
+    std::set<std::string> semantics;
+    for (const auto& attribute : mesh.attributes) {
+        const auto per_vertex = static_cast<std::size_t>(attribute.components);
+        if (attribute.components < 1 || per_vertex > vector_types.size())
+            refuse(fmt::format("attribute '{}' has {} components; GLB holds 1 to {}", attribute.name,
+                               attribute.components, vector_types.size()));
+        if (attribute.values.size() != n * per_vertex)
+            refuse(fmt::format("attribute '{}' has {} values for {} vertices of {} components", attribute.name,
+                               attribute.values.size(), n, attribute.components));
+        if (!semantics.insert(semantic(attribute)).second)
+            refuse(fmt::format("two attributes would be called {}; leave one out", semantic(attribute)));
+        for (const auto& t : mesh.triangles)
+            for (const auto corner : t)
+                for (std::size_t c = 0; c < per_vertex; ++c)
+                    if (!std::isfinite(static_cast<float>(attribute.values[corner * per_vertex + c])))
+                        not_finite(fmt::format("attribute '{}' of vertex {}", attribute.name, corner));
+    }
+}
+
+template <class T>
+std::vector<T> gathered(const std::vector<T>& values, std::span<const std::uint32_t> vertices) {
+    std::vector<T> out;
+    if (values.empty()) return out;
+    out.reserve(vertices.size());
+    for (const auto v : vertices) out.push_back(values[v]);
+    return out;
+}
+
+std::vector<VertexAttribute> gathered(const std::vector<VertexAttribute>& attributes,
+                                      std::span<const std::uint32_t> vertices) {
+    std::vector<VertexAttribute> out;
+    for (const auto& attribute : attributes) {
+        const auto per_vertex = static_cast<std::ptrdiff_t>(attribute.components);
+        auto& values = out.emplace_back(VertexAttribute{attribute.name, attribute.components, {}}).values;
+        for (const auto v : vertices) {
+            const auto first = attribute.values.begin() + v * per_vertex;
+            values.insert(values.end(), first, first + per_vertex);
+        }
+    }
+    return out;
+}
+
+/// The mesh without vertices that no triangle uses.
+GlbMesh compacted(const GlbMesh& mesh) {
+    std::vector<std::uint32_t> new_index(mesh.positions_mm.size(), no_vertex), used;
+    for (const auto& t : mesh.triangles)
+        for (const auto corner : t) new_index[corner] = 0;
+    for (std::uint32_t v = 0; v < new_index.size(); ++v)
+        if (new_index[v] != no_vertex) {
+            new_index[v] = static_cast<std::uint32_t>(used.size());
+            used.push_back(v);
+        }
+    GlbMesh small;
+    small.positions_mm = gathered(mesh.positions_mm, used);
+    small.normals = gathered(mesh.normals, used);
+    small.texture_coordinates = gathered(mesh.texture_coordinates, used);
+    small.colours = gathered(mesh.colours, used);
+    small.attributes = gathered(mesh.attributes, used);
+    for (const auto& t : mesh.triangles) small.triangles.push_back({new_index[t[0]], new_index[t[1]], new_index[t[2]]});
+    for (const auto& target : mesh.morph_targets)
+        small.morph_targets.push_back(
+            {target.name, gathered(target.displacement_mm, used), target.weight, target.arkit_name});
+    return small;
+}
+
+/// Unit length is demanded of every normal, also where all triangles of a vertex have no area.
+void make_unit(std::vector<Vector>& normals) {
+    for (auto& n : normals) {
+        const double length = n.norm();
+        n = length > 1e-12 && std::isfinite(length) ? Vector(n / length) : Vector(Vector::UnitZ());
+    }
+}
+
+Json mesh_json(const GlbMesh& source, std::optional<std::size_t> material, Buffer& buffer) {
+    auto mesh = compacted(source);
+    if (mesh.normals.empty()) mesh.normals = geometry::vertex_normals(mesh.positions_mm, mesh.triangles);
+    make_unit(mesh.normals);
+    Json attributes;
+    attributes["POSITION"] = buffer.add_floats(mesh.positions_mm, metres_per_mm, true);
+    attributes["NORMAL"] = buffer.add_floats(mesh.normals, 1.0, false);
+    if (!mesh.texture_coordinates.empty())
+        attributes["TEXCOORD_0"] = buffer.add_texture_coordinates(mesh.texture_coordinates);
+    // glTF multiplies colours into the texture, which would darken the picture twice.
+    if (!mesh.colours.empty() && source.texture_png.empty()) attributes["COLOR_0"] = buffer.add_colours(mesh.colours);
+    for (const auto& attribute : mesh.attributes) attributes[semantic(attribute)] = buffer.add_attribute(attribute);
+    Json primitive = {{"attributes", attributes}, {"indices", buffer.add_indices(mesh.triangles)}, {"mode", 4}};
+    if (material) primitive["material"] = *material;
+
+    Json json = {{"name", source.name}};
+    auto extras = object_of(source.extras);
+    if (!mesh.morph_targets.empty()) {
+        Json targets = Json::array(), names = Json::array(), arkit_names = Json::array(), weights = Json::array();
+        bool arkit = false;
+        for (const auto& target : mesh.morph_targets) {
+            auto moved = mesh.positions_mm;
+            for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += target.displacement_mm[i];
+            auto normals = geometry::vertex_normals(moved, mesh.triangles);
+            auto rest = geometry::vertex_normals(mesh.positions_mm, mesh.triangles);
+            make_unit(normals);
+            make_unit(rest);
+            for (std::size_t i = 0; i < normals.size(); ++i) normals[i] -= rest[i];
+            targets.push_back({{"POSITION", buffer.add_floats(target.displacement_mm, metres_per_mm, true)},
+                               {"NORMAL", buffer.add_floats(normals, 1.0, false)}});
+            names.push_back(target.name);
+            arkit_names.push_back(target.arkit_name);
+            arkit = arkit || !target.arkit_name.empty();
+            weights.push_back(target.weight);
+        }
+        primitive["targets"] = targets;
+        json["weights"] = weights;
+        extras["targetNames"] = names;
+        if (arkit) extras["arkitNames"] = arkit_names;
+    }
+    json["primitives"] = Json::array({primitive});
+    if (!extras.empty()) json["extras"] = extras;
+    return json;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_glb(const GlbScene& scene) {
+    if (scene.meshes.empty()) throw InputError("a GLB file needs at least one mesh");
+    Json json = {{"asset", {{"version", "2.0"}, {"generator", "Mimik"}}}, {"scene", 0}};
+    if (!scene.extras.empty()) json["asset"]["extras"] = object_of(scene.extras);
+    Buffer buffer;
+    Json nodes = Json::array(), roots = Json::array(), meshes = Json::array(), materials = Json::array(),
+         textures = Json::array(), images = Json::array();
+    for (const auto& mesh : scene.meshes) {
+        check(mesh);
+        // Skin: no metal, rather dull. Scans are open surfaces, so both sides are drawn.
+        Json surface = {{"metallicFactor", 0.0}, {"roughnessFactor", 0.8}};
+        if (!mesh.texture_png.empty()) {
+            images.push_back({{"mimeType", "image/png"}, {"bufferView", buffer.add_image(mesh.texture_png)}});
+            textures.push_back({{"sampler", 0}, {"source", images.size() - 1}});
+            surface["baseColorTexture"] = {{"index", textures.size() - 1}};
+        } else if (mesh.colours.empty()) {
+            surface["baseColorFactor"] = {0.8, 0.62, 0.53, 1.0};
+        }
+        materials.push_back({{"name", mesh.name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}});
+        meshes.push_back(mesh_json(mesh, materials.size() - 1, buffer));
+        roots.push_back(nodes.size());
+        nodes.push_back({{"name", mesh.name}, {"mesh", meshes.size() - 1}});
+    }
+    json["scenes"] = Json::array({{{"nodes", roots}}});
+    json["nodes"] = nodes;
+    json["meshes"] = meshes;
+    json["materials"] = materials;
+    if (!textures.empty()) {
+        json["textures"] = textures;
+        json["images"] = images;
+        json["samplers"] =
+            Json::array({{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33071}}});
+    }
+    auto binary = buffer.bytes();
+    json["accessors"] = std::move(buffer.accessors);
+    json["bufferViews"] = std::move(buffer.views);
+    json["buffers"] = Json::array({{{"byteLength", binary.size()}}});
+    binary.resize((binary.size() + 3) / 4 * 4);
+    auto text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+
+    constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
+    const auto length = header_bytes + 2 * chunk_header_bytes + text.size() + binary.size();
+    if (length > std::numeric_limits<std::uint32_t>::max())
+        throw InputError(
+            fmt::format("a GLB file holds at most 4 GB, and this scene needs {} bytes; export fewer shapes", length));
+    std::string out;
+    out.reserve(length);
+    out += "glTF";
+    append(out, std::uint32_t{2});
+    append(out, static_cast<std::uint32_t>(length));
+    append(out, static_cast<std::uint32_t>(text.size()));
+    out += "JSON";
+    out += text;
+    append(out, static_cast<std::uint32_t>(binary.size()));
+    out += std::string_view("BIN\0", 4);
+    out += binary;
+    return {out.begin(), out.end()};
+}
+
+void write_glb(const std::filesystem::path& file, const GlbScene& scene) {
+    std::vector<std::uint8_t> bytes;
+    try {
+        bytes = encode_glb(scene);
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: not written: {}", file.string(), e.what()));
+    } catch (const NumericalError& e) {
+        throw NumericalError(fmt::format("{}: not written: {}", file.string(), e.what()));
+    }
+    base::write_atomically(file, formats::as_text(bytes));
+}
+
+GlbMesh glb_mesh(const Mesh& mesh, std::vector<std::uint32_t>* source_vertex) {
+    GlbMesh out;
+    std::vector<std::uint32_t> sources;
+    if (mesh.faces.texture_corners.empty()) {
+        out.positions_mm = mesh.vertices_mm;
+        out.texture_coordinates = mesh.texture_coordinates;
+        out.triangles = geometry::triangulate(mesh.faces);
+        for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v) sources.push_back(v);
+    } else {
+        Faces split;
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> index;
+        std::vector<std::uint32_t> face;
+        for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+            face.clear();
+            for (auto k = mesh.faces.first[f]; k < mesh.faces.first[f + 1]; ++k) {
+                const std::pair key(mesh.faces.corners[k], mesh.faces.texture_corners[k]);
+                const auto [it, added] = index.try_emplace(key, static_cast<std::uint32_t>(sources.size()));
+                if (added) {
+                    sources.push_back(key.first);
+                    out.positions_mm.push_back(mesh.vertices_mm[key.first]);
+                    out.texture_coordinates.push_back(mesh.texture_coordinates[key.second]);
+                }
+                face.push_back(it->second);
+            }
+            split.add(face);
+        }
+        out.triangles = geometry::triangulate(split);
+    }
+    // Normals of the surface as it was before the seams were cut.
+    out.normals = gathered(geometry::vertex_normals(mesh.vertices_mm, geometry::triangulate(mesh.faces)), sources);
+    out.colours = gathered(mesh.colours, sources);
+    out.attributes = gathered(mesh.attributes, sources);
+    if (source_vertex) *source_vertex = std::move(sources);
+    return out;
+}
+
+}  // namespace mimik::io

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "geometry/types.h"
+
+namespace mimik::io {
+
+/// A shape that a viewer blends in with a weight from 0 to 1.
+struct MorphTarget {
+    std::string name;                               ///< shown by viewers, e.g. "AU12_L" or an ARKit name
+    std::vector<geometry::Vector> displacement_mm;  ///< one per vertex, at weight 1
+    double weight = 0.0;                            ///< that the file opens with
+    std::string arkit_name = {};                    ///< of the same shape in ARKit; empty: none
+};
+
+struct GlbMesh {
+    std::string name = "face";
+    std::vector<geometry::Point> positions_mm;
+    std::vector<geometry::Vector> normals;  ///< empty: computed from the triangles
+    std::vector<geometry::TextureCoordinate>
+        texture_coordinates;                           ///< empty, or one per vertex, v up as everywhere in Mimik
+    std::vector<std::array<std::uint8_t, 3>> colours;  ///< empty, or RGB per vertex; left out beside a texture
+    std::vector<geometry::Triangle> triangles;
+    std::vector<std::uint8_t> texture_png;  ///< a PNG file, embedded; empty: plain skin colour
+    std::vector<MorphTarget> morph_targets;
+    std::vector<geometry::VertexAttribute>
+        attributes;  ///< kept as application's own: "origin" as _ORIGIN; 1 to 4 components
+    std::vector<std::pair<std::string, std::string>> extras;  ///< kept in mesh.extras beside targetNames
+};
+
+struct GlbScene {
+    std::vector<GlbMesh> meshes;
+    std::vector<std::pair<std::string, std::string>> extras;  ///< kept in asset.extras, e.g. the target's name
+};
+
+/// glTF 2.0, binary: metres, v counted downward, 32-bit floats. Vertices that no triangle uses are left out (so bridged
+/// or outside vertices may hold NaN). Morph targets carry the change of the normals too; mesh.extras.targetNames names
+/// them; if ARKit has any of them, mesh.extras.arkitNames has its names in the same order, "" where there is none.
+/// Attributes are written in their own units under their names in capitals after an underscore, as glTF asks.
+/// @throws InputError naming the mesh and the part that does not fit; NumericalError for what is not finite in 32 bits.
+[[nodiscard]] std::vector<std::uint8_t> encode_glb(const GlbScene& scene);
+void write_glb(const std::filesystem::path& file, const GlbScene& scene);
+
+/// Triangulated mesh with one texture position per vertex: a vertex on a texture seam becomes several. Colours and
+/// attributes go along. `source_vertex` (if asked for) says which vertex of `mesh` each comes from, to carry
+/// displacements along.
+[[nodiscard]] GlbMesh glb_mesh(const geometry::Mesh& mesh, std::vector<std::uint32_t>* source_vertex = nullptr);
+
+}  // namespace mimik::io

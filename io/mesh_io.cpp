@@ -1,0 +1,255 @@
+#include "io/mesh_io.h"
+
+#include <cmath>
+#include <new>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "io/formats/obj.h"
+#include "io/formats/pcd.h"
+#include "io/formats/ply.h"
+#include "io/formats/stl.h"
+#include "io/formats/vtp.h"
+#include "io/texture_path.h"
+
+namespace mimik::io {
+
+using geometry::Mesh;
+
+namespace {
+
+void scale_lengths(MeshFile& file, LengthUnit unit) {
+    if (unit == LengthUnit::millimetre) return;
+    for (auto& p : file.mesh.vertices_mm) p *= millimetres_per(unit);
+}
+
+void check_vertices(const MeshFile& file, MeshFormat format, const std::string& name) {
+    const auto& vertices = file.mesh.vertices_mm;
+    if (vertices.empty()) throw InputError(fmt::format("{}: there is no vertex in it; is it the right file?", name));
+    if (format == MeshFormat::pcd) return;  // NaN marks what was not measured
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        if (!vertices[i].allFinite())
+            throw InputError(
+                fmt::format("{}: vertex {} (counted from 0) is ({}, {}, {}), not a finite position; delete it or "
+                            "export the mesh again",
+                            name, i, vertices[i].x(), vertices[i].y(), vertices[i].z()));
+    const auto& texture = file.mesh.texture_coordinates;
+    for (std::size_t i = 0; i < texture.size(); ++i)
+        if (!texture[i].allFinite())
+            throw InputError(
+                fmt::format("{}: texture position {} (counted from 0) is ({}, {}), not finite; export the mesh "
+                            "again",
+                            name, i, texture[i].x(), texture[i].y()));
+}
+
+/// Leaves out the points that a lattice marks as not measured. Such a file has no faces.
+void drop_unmeasured(Mesh& mesh) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+        if (!mesh.vertices_mm[i].allFinite()) continue;
+        mesh.vertices_mm[kept] = mesh.vertices_mm[i];
+        if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates[kept] = mesh.texture_coordinates[i];
+        if (!mesh.colours.empty()) mesh.colours[kept] = mesh.colours[i];
+        for (auto& attribute : mesh.attributes) {
+            const auto n = static_cast<std::size_t>(attribute.components);
+            for (std::size_t c = 0; c < n; ++c) attribute.values[kept * n + c] = attribute.values[i * n + c];
+        }
+        ++kept;
+    }
+    mesh.vertices_mm.resize(kept);
+    if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates.resize(kept);
+    if (!mesh.colours.empty()) mesh.colours.resize(kept);
+    for (auto& attribute : mesh.attributes)
+        attribute.values.resize(kept * static_cast<std::size_t>(attribute.components));
+}
+
+/// The texture's name as it stands in the file becomes its path from the file's folder.
+void find_texture(MeshFile& content, MeshFormat format, const std::filesystem::path& file) {
+    if (content.texture_file.empty()) return;
+    if (format != MeshFormat::obj) {
+        content.texture_file = checked_texture_path(content.texture_file, file.string());
+        return;
+    }
+    const std::filesystem::path named = checked_texture_path(content.texture_file, file.string());
+    content.material_file = named.generic_string();
+    const auto material = file.parent_path() / named;
+    // A missing material file takes the texture away, not the mesh.
+    content.texture_file =
+        base::is_there(material)
+            ? formats::texture_of_material(base::read_text(material, std::uintmax_t{1} << 24), material.string())
+            : std::string();
+    if (!content.texture_file.empty())
+        content.texture_file =
+            (named.parent_path() / checked_texture_path(content.texture_file, material.string())).generic_string();
+}
+
+void check_parts_fit(const Mesh& mesh, const std::string& name) {
+    const auto n = mesh.vertices_mm.size();
+    const auto refuse = [&](const std::string& what) {
+        throw InputError(fmt::format("{}: not written: {}", name, what));
+    };
+    if (!mesh.colours.empty() && mesh.colours.size() != n)
+        refuse(fmt::format("{} colours for {} vertices", mesh.colours.size(), n));
+    const auto& faces = mesh.faces;
+    if (faces.texture_corners.empty()) {
+        if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != n)
+            refuse(fmt::format("{} texture positions for {} vertices", mesh.texture_coordinates.size(), n));
+    } else if (faces.texture_corners.size() != faces.corners.size()) {
+        refuse(
+            fmt::format("{} texture corners for {} face corners", faces.texture_corners.size(), faces.corners.size()));
+    }
+    for (const auto corner : faces.corners)
+        if (corner >= n) refuse(fmt::format("a face names vertex {} of {}", corner, n));
+    for (const auto corner : faces.texture_corners)
+        if (corner >= mesh.texture_coordinates.size())
+            refuse(fmt::format("a face names texture position {} of {}", corner, mesh.texture_coordinates.size()));
+    for (std::size_t k = 0; k < mesh.attributes.size(); ++k)
+        for (std::size_t other = 0; other < k; ++other)
+            if (mesh.attributes[k].name == mesh.attributes[other].name)
+                refuse(fmt::format("two attributes are called {}; leave one out",
+                                   base::in_quotes(mesh.attributes[k].name)));
+    for (const auto& attribute : mesh.attributes)
+        if (attribute.components < 1 || attribute.values.size() != n * static_cast<std::size_t>(attribute.components))
+            refuse(fmt::format("attribute {} has {} values for {} vertices of {} components",
+                               base::in_quotes(attribute.name), attribute.values.size(), n, attribute.components));
+    for (std::size_t i = 0; i < n; ++i)
+        if (!mesh.vertices_mm[i].allFinite()) refuse(fmt::format("vertex {} is not a finite position", i));
+}
+
+MeshFile decode(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name, MeshParts parts) {
+    switch (format) {
+        case MeshFormat::ply:
+            return formats::decode_ply(bytes, name);
+        case MeshFormat::obj:
+            return formats::decode_obj(bytes, name);
+        case MeshFormat::stl:
+            return formats::decode_stl(bytes, name);
+        case MeshFormat::pcd:
+            return formats::decode_pcd(bytes, name, parts);
+        case MeshFormat::vtp:
+            break;
+    }
+    return formats::decode_vtp(bytes, name, parts);
+}
+
+}  // namespace
+
+LengthUnit parse_length_unit(const std::string& text) {
+    if (text == "mm") return LengthUnit::millimetre;
+    if (text == "cm") return LengthUnit::centimetre;
+    if (text == "m") return LengthUnit::metre;
+    throw InputError(fmt::format("unit {} is not known; use mm, cm or m", base::in_quotes(text)));
+}
+
+double millimetres_per(LengthUnit unit) {
+    switch (unit) {
+        case LengthUnit::millimetre:
+            return 1.0;
+        case LengthUnit::centimetre:
+            return 10.0;
+        case LengthUnit::metre:
+            break;
+    }
+    return 1000.0;
+}
+
+MeshFormat mesh_format(const std::filesystem::path& file) {
+    const auto extension = base::lower_case(file.extension().string());
+    if (extension == ".ply") return MeshFormat::ply;
+    if (extension == ".obj") return MeshFormat::obj;
+    if (extension == ".stl") return MeshFormat::stl;
+    if (extension == ".pcd") return MeshFormat::pcd;
+    if (extension == ".vtp") return MeshFormat::vtp;
+    throw InputError(fmt::format("{}: extension {} is no mesh format; there are .ply, .obj, .stl, .pcd and .vtp",
+                                 file.string(), base::in_quotes(extension)));
+}
+
+std::string checked_texture_name(const std::string& texture, const std::string& file) {
+    auto name = checked_texture_path(texture, file);
+    if (name.find('/') != std::string::npos)
+        throw InputError(
+            fmt::format("{}: texture name is {}; it must be a bare file name: put the image beside the "
+                        "mesh and name it without a folder",
+                        file, base::in_quotes(texture)));
+    return name;
+}
+
+MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name, LengthUnit unit,
+                     MeshParts parts) {
+    auto file = [&] {
+        try {
+            return decode(format, bytes, name, parts);
+        } catch (const std::bad_alloc&) {
+            throw InputError(fmt::format("{}: there is not enough memory for what it holds", name));
+        } catch (const std::length_error&) {
+            throw InputError(fmt::format("{}: promises more than any memory holds; its header is wrong", name));
+        }
+    }();
+    if (parts == MeshParts::without_attributes) file.mesh.attributes.clear();
+    scale_lengths(file, unit);
+    check_vertices(file, format, name);
+    return file;
+}
+
+Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit) {
+    const auto format = mesh_format(file);
+    auto mesh = decode_mesh(format, base::read_bytes(file), file.string(), unit).mesh;
+    if (format == MeshFormat::pcd) {
+        drop_unmeasured(mesh);
+        if (mesh.vertices_mm.empty())
+            throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", file.string()));
+    }
+    return mesh;
+}
+
+MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit, MeshParts parts, BadTexture bad_texture) {
+    const auto format = mesh_format(file);
+    auto content = decode_mesh(format, base::read_bytes(file), file.string(), unit, parts);
+    try {
+        find_texture(content, format, file);
+    } catch (const InputError& e) {
+        if (bad_texture == BadTexture::refuse) throw;
+        content.texture_file.clear();
+        content.texture_error = e.what();
+    }
+    return content;
+}
+
+void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const MeshWriteOptions& options) {
+    const auto format = mesh_format(file);
+    check_parts_fit(mesh, file.string());
+    auto checked = options;
+    if (!options.texture_file.empty()) checked.texture_file = checked_texture_name(options.texture_file, file.string());
+    switch (format) {
+        case MeshFormat::ply:
+            base::write_atomically(file, [&](std::ostream& out) { formats::encode_ply(out, mesh, checked); });
+            return;
+        case MeshFormat::obj: {
+            std::string material;
+            if (!checked.texture_file.empty()) {
+                material = file.stem().string() + ".mtl";
+                auto material_file = file;
+                base::write_atomically(material_file.replace_filename(material),
+                                       formats::material_with_texture(checked.texture_file));
+            }
+            base::write_atomically(file, [&](std::ostream& out) { formats::encode_obj(out, mesh, material); });
+            return;
+        }
+        case MeshFormat::stl:
+            base::write_atomically(file,
+                                   [&](std::ostream& out) { formats::encode_stl(out, mesh, checked, file.string()); });
+            return;
+        case MeshFormat::vtp:
+            base::write_atomically(file, [&](std::ostream& out) { formats::encode_vtp(out, mesh); });
+            return;
+        case MeshFormat::pcd:
+            break;
+    }
+    throw InputError(fmt::format("{}: .pcd is read but not written; write .ply, .obj, .stl or .vtp", file.string()));
+}
+
+}  // namespace mimik::io

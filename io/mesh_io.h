@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "geometry/mesh.h"
+
+namespace mimik::io {
+
+/// Units of a file that does not state them; Mimik works in millimetres and converts here, at the reader.
+enum class LengthUnit { millimetre, centimetre, metre };
+[[nodiscard]] LengthUnit parse_length_unit(const std::string& text);  ///< "mm", "cm", "m"; throws InputError
+[[nodiscard]] double millimetres_per(LengthUnit unit);
+
+enum class MeshFormat { ply, obj, stl, pcd, vtp };
+/// By extension, case ignored. @throws InputError listing the extensions there are.
+[[nodiscard]] MeshFormat mesh_format(const std::filesystem::path& file);
+
+/// PLY (ASCII, both binaries), OBJ (polygons, vt, vertex colours, negative indices), STL (both, welded), PCD v0.7
+/// (ascii, binary, binary_compressed), VTP (inline or appended arrays, with or without zlib). By extension, case
+/// ignored; header and sizes are checked against the length of the file before anything is allocated. Normals are not
+/// read: they follow from the faces. Further scalar values per vertex become attributes. Points that a PCD marks as not
+/// measured (NaN) are left out; in every other format a coordinate that is not finite is an error.
+/// @throws InputError naming file, line or byte, field, value and mend.
+[[nodiscard]] geometry::Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre);
+
+/// Attributes can take much more memory than the surface: who has no use for them need not have them decoded.
+enum class MeshParts { all, without_attributes };
+
+/// Whether a texture's name that cannot be used is an error, or said in MeshFile::texture_error and the surface read.
+enum class BadTexture { refuse, report };
+
+/// What a file holds beside the surface.
+struct MeshFile {
+    geometry::Mesh mesh;
+    std::string texture_file;        ///< image in the mesh's folder or below it ("tex/skin.png"); empty: none
+    std::string material_file = {};  ///< of an OBJ: its mtllib, likewise
+    std::string texture_error = {};  ///< as the error would say it
+    int rows = 0;  ///< of a PCD with HEIGHT > 1, in the file's order; its NaN points are then still in `mesh`
+    int cols = 0;
+};
+/// read_mesh with the name of the texture image (PLY: comment TextureFile; OBJ: map_Kd of its MTL) and a PCD's lattice.
+/// @throws InputError also where the texture's name leads out of the mesh's folder (BadTexture::refuse).
+[[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre,
+                                      MeshParts parts = MeshParts::all, BadTexture bad_texture = BadTexture::refuse);
+
+/// The same from memory; `name` stands for the file in messages. The texture name is as written (for OBJ: the name of
+/// the material file).
+[[nodiscard]] MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name,
+                                   LengthUnit unit = LengthUnit::millimetre, MeshParts parts = MeshParts::all);
+
+struct MeshWriteOptions {
+    std::string texture_file;  ///< image beside the mesh, named in OBJ's MTL and PLY's comment; empty: none
+    bool binary = true;        ///< PLY and STL; false: readable text
+};
+
+/// PLY (double precision, attributes as extra properties), OBJ (17 digits), STL (single precision, triangles), VTP
+/// (attributes as point data), by extension. Faces, texture coordinates and colours are kept where the format can hold
+/// them; docs/formats.md says what each leaves out. OBJ with a texture also writes the .mtl beside it.
+/// @throws InputError if the parts of the mesh do not fit together, or the file cannot be written.
+void write_mesh(const std::filesystem::path& file, const geometry::Mesh& mesh, const MeshWriteOptions& options = {});
+
+/// The texture's name if it is a bare file name (a leading "./" is dropped). @throws InputError naming `file` and the
+/// value where it has a folder in it.
+[[nodiscard]] std::string checked_texture_name(const std::string& texture, const std::string& file);
+
+}  // namespace mimik::io

@@ -1,0 +1,119 @@
+#include "io/image.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include "base/file.h"
+#include "tests/io/files_testing.h"
+
+namespace mimik::io {
+namespace {
+
+using testing::HasSubstr;
+
+Image gradient(int width, int height) {
+    Image image{width, height, {}};
+    for (int row = 0; row < height; ++row)
+        for (int col = 0; col < width; ++col)
+            for (const int value : {row * 3, col * 5, row * col}) image.rgb.push_back(static_cast<std::uint8_t>(value));
+    return image;
+}
+
+/// A PNG of any colour type from libpng itself.
+std::string png_of(int width, int height, int depth, int colour_type,
+                   const std::vector<std::vector<std::uint8_t>>& rows, bool interlaced = false) {
+    std::string out;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_set_write_fn(
+        png, &out,
+        [](png_structp p, png_bytep data, std::size_t n) {
+            static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<char*>(data), n);
+        },
+        nullptr);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), depth, colour_type,
+                 interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    const std::array<png_color, 2> palette = {png_color{10, 20, 30}, png_color{40, 50, 60}};
+    if (colour_type == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette.data(), 2);
+    png_write_info(png, info);
+    std::vector<png_bytep> pointers;
+    for (const auto& row : rows) pointers.push_back(const_cast<png_bytep>(row.data()));
+    png_write_image(png, pointers.data());
+    png_write_end(png, nullptr);
+    png_destroy_write_struct(&png, &info);
+    return out;
+}
+
+TEST(Png, every_pixel_comes_back_and_the_size_is_known_from_the_header) {
+    const TemporaryFolder folder;
+    const auto image = gradient(37, 21);
+    write_png(folder / "a.png", image);
+    const auto read = read_png(folder / "a.png");
+    EXPECT_EQ(read.width, 37);
+    EXPECT_EQ(read.height, 21);
+    EXPECT_EQ(read.rgb, image.rgb);
+    EXPECT_EQ(image_size(folder / "a.png"), (std::array<int, 2>{37, 21}));
+}
+
+TEST(Png, grey_palette_alpha_and_16_bit_images_become_8_bit_rgb) {
+    const auto decoded = [](const std::string& png) { return decode_png(bytes_of(png), "a.png").rgb; };
+    const std::vector<std::uint8_t> grey = {7, 7, 7, 200, 200, 200};
+    EXPECT_EQ(decoded(png_of(2, 1, 8, PNG_COLOR_TYPE_GRAY, {{7, 200}})), grey);
+    EXPECT_EQ(decoded(png_of(2, 1, 16, PNG_COLOR_TYPE_GRAY, {{7, 7, 200, 200}})), grey);
+    EXPECT_EQ(decoded(png_of(2, 1, 8, PNG_COLOR_TYPE_GRAY_ALPHA, {{7, 0, 200, 9}})), grey);
+    EXPECT_EQ(decoded(png_of(2, 1, 1, PNG_COLOR_TYPE_PALETTE, {{0x40}})),
+              (std::vector<std::uint8_t>{10, 20, 30, 40, 50, 60}));
+    // Colour is kept where the image is transparent.
+    EXPECT_EQ(decoded(png_of(1, 1, 8, PNG_COLOR_TYPE_RGB_ALPHA, {{1, 2, 3, 0}})), (std::vector<std::uint8_t>{1, 2, 3}));
+    EXPECT_EQ(decoded(png_of(2, 2, 8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12}}, true)),
+              (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+}
+
+TEST(Png, errors_name_the_file_and_what_is_wrong) {
+    const auto refused = [](std::string_view png) {
+        return message_of([&] { (void)decode_png(bytes_of(png), "a.png"); });
+    };
+    const auto bytes = encode_png(gradient(64, 64));
+    const std::string good(bytes.begin(), bytes.end());
+    EXPECT_THAT(refused("JFIF"), HasSubstr("a.png: is neither a PNG nor a JPEG image"));
+    EXPECT_THAT(refused(good.substr(0, good.size() / 2)),
+                HasSubstr("a.png: the PNG cannot be decoded (the file ends inside its data)"));
+    auto damaged = good;
+    damaged[60] = static_cast<char>(damaged[60] ^ 0x55);
+    EXPECT_THAT(refused(damaged), HasSubstr("a.png: the PNG cannot be decoded"));
+    const auto with_size = [&](std::uint32_t width, std::uint32_t height) {
+        auto changed = good;
+        for (std::size_t k = 0; k < 4; ++k) {
+            changed[16 + k] = static_cast<char>(width >> (24 - 8 * k));
+            changed[20 + k] = static_cast<char>(height >> (24 - 8 * k));
+        }
+        return changed;
+    };
+    EXPECT_THAT(refused(with_size(0, 5)), HasSubstr("width x height is 0 x 5; the image is empty"));
+    EXPECT_THAT(refused(with_size(0xFFFFFFFFU, 0xFFFFFFFFU)),
+                HasSubstr("4294967295 x 4294967295, more than the 100 million pixels"));
+    EXPECT_THAT(refused(with_size(10000, 10000)), HasSubstr("10000 x 10000, but the file has only"));
+    EXPECT_THAT(message_of([] { (void)read_png("/nowhere/a.png"); }), HasSubstr("/nowhere/a.png"));
+    EXPECT_THAT(message_of([] { (void)image_size("/nowhere/a.png"); }), HasSubstr("/nowhere/a.png"));
+    EXPECT_THAT(message_of([] { (void)encode_png({3, 3, {1, 2}}); }), HasSubstr("3 x 3 pixels with 2 bytes"));
+}
+
+TEST(Png, what_is_handed_on_is_a_whole_image) {
+    const TemporaryFolder folder;
+    const auto image = gradient(64, 64);
+    const auto bytes = encode_png(image);
+    const std::string good(bytes.begin(), bytes.end());
+    base::write_atomically(folder / "a.png", good.substr(0, good.size() / 2));
+    EXPECT_THAT(message_of([&] { (void)read_as_png(folder / "a.png"); }),
+                HasSubstr("a.png: the PNG cannot be decoded"));
+    base::write_atomically(folder / "a.png", good);
+    EXPECT_EQ(read_as_png(folder / "a.png"), bytes);
+    constexpr std::size_t end_chunk = 12;
+    base::write_atomically(folder / "a.png", good.substr(0, good.size() - end_chunk));  // every pixel is there
+    EXPECT_EQ(read_as_png(folder / "a.png"), bytes);
+}
+
+}  // namespace
+}  // namespace mimik::io
