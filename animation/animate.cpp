@@ -8,7 +8,9 @@
 
 #include "animation/combine.h"
 #include "base/errors.h"
-#include "preprocessing/control_pairs.h"
+#include "facs/face_regions.h"
+#include "geometry/face_axes.h"
+#include "geometry/landmark_spline.h"
 
 namespace mimik::animation {
 
@@ -33,34 +35,6 @@ void AnimationOptions::check() const {
     if (!(border_mm >= 0)) throw InputError(fmt::format("border_mm is {}; give 0 (hard cut) or more", border_mm));
 }
 
-TargetFace::TargetFace(const preprocessing::Face& neutral, modeling::Frame frame, bool snapped_landmarks)
-    : face_(&neutral), frame_(frame), average_from_scan_(modeling::average_from_scan(neutral, frame)) {
-    landmarks_ =
-        geometry::transformed(snapped_landmarks ? neutral.snapped_landmarks : neutral.landmarks, average_from_scan_);
-    mouth_width_mm_ =
-        (landmarks_.position_mm("mouth_corner_left") - landmarks_.position_mm("mouth_corner_right")).norm();
-    vertices_mm_.reserve(neutral.grid.size());
-    for (std::size_t v = 0; v < neutral.grid.size(); ++v) {
-        vertices_mm_.emplace_back(average_from_scan_ * neutral.grid.vertices_mm[v]);
-        if (neutral.grid.inside(v)) inside_.push_back(static_cast<std::uint32_t>(v));
-    }
-    surface_ = std::make_shared<geometry::SurfaceIndex>(vertices_mm_, geometry::triangles(neutral.grid));
-}
-
-Point TargetFace::nearest_vertex(const Point& query_mm) const {
-    // One answer is asked for per control point: looking at every vertex costs less than building a tree.
-    double best = std::numeric_limits<double>::infinity();
-    std::uint32_t nearest = 0;
-    for (const auto v : inside_) {
-        const double d = (vertices_mm_[v] - query_mm).squaredNorm();
-        if (d < best) {
-            best = d;
-            nearest = v;
-        }
-    }
-    return vertices_mm_[nearest];
-}
-
 namespace {
 
 /// Controls closer than this would make the spline stiff against noise: the later one is merged into the first.
@@ -71,33 +45,53 @@ struct Controls {
     std::vector<std::string> names;
 };
 
-Controls carry(const TargetFace& target, const ExpressionModel& model, const AnimationOptions& options,
-               std::vector<CarriedPoint>* points, std::vector<std::string>* remarks) {
-    const preprocessing::ControlPairs pairs(model.landmarks, target.landmarks());
-    if (remarks)
-        for (const auto& merged : pairs.merged())
-            remarks->push_back(fmt::format("{}: landmark {}", model.expression, merged));
-    const auto target_from_model = pairs.fit({.kernel = options.kernel, .smoothing = options.landmark_smoothing});
+/// Eq. 5.8: lower-face motion grows with the mouth.
+double mouth_ratio(const geometry::Landmarks& target_landmarks, const ExpressionModel& model,
+                   const AnimationOptions& options) {
+    if (!options.mouth_ratio || !model.moves_lower_face || model.moves_upper_face || model.mouth_width_mm <= 0)
+        return 1.0;
+    return geometry::mouth_width_mm(target_landmarks) / model.mouth_width_mm;
+}
 
-    double ratio = 1.0;
-    if (options.mouth_ratio && model.moves_lower_face && !model.moves_upper_face && model.mouth_width_mm > 0)
-        ratio = target.mouth_width_mm() / model.mouth_width_mm;
-    const Eigen::Matrix3d scan_from_average = target.average_from_scan().linear().inverse();
+/// The model's landmarks and the target's; what found no partner is told.
+geometry::LandmarkPairs paired_landmarks(const ExpressionModel& model, const geometry::Landmarks& landmarks,
+                                         const std::string& target, std::vector<std::string>* remarks) {
+    geometry::LandmarkPairs pairs(model.landmarks, landmarks);
+    if (!remarks) return pairs;
+    for (const auto& merged : pairs.merged())
+        remarks->push_back(fmt::format("{}: landmark {}", model.expression.name(), merged));
+    for (const auto& name : pairs.only_in_from())
+        remarks->push_back(fmt::format("{}: landmark '{}' of the model is not on {}; the spline goes by the others",
+                                       model.expression.name(), name, target));
+    for (const auto& name : pairs.only_in_to())
+        remarks->push_back(fmt::format("{}: landmark '{}' of {} is not in the model; the spline goes by the others",
+                                       model.expression.name(), name, target));
+    return pairs;
+}
+
+Controls carry(const PreparedTarget& target, const ExpressionModel& model, const AnimationOptions& options,
+               std::vector<CarriedPoint>* points, std::vector<std::string>* remarks) {
+    const auto& normalised = target.normalised(model.normalisation);
+    const auto& landmarks = options.snap_to_vertices ? normalised.snapped_landmarks : normalised.landmarks;
+    const auto target_from_model = paired_landmarks(model, landmarks, target.name(), remarks)
+                                       .fit({.kernel = options.kernel, .smoothing = options.landmark_smoothing});
+    const double ratio = mouth_ratio(landmarks, model, options);
+    const Eigen::Matrix3d target_from_average = normalised.average_from_target.linear().inverse();
 
     Controls controls;
     for (const auto& point : model.points) {
-        const bool anchor = point.kind == modeling::ControlKind::anchor;
+        const bool anchor = point.kind == facs::ControlKind::anchor;
         if (anchor && !options.anchors) continue;
         const Point carried = target_from_model(point.position_mm);
-        const Point on_face =
-            options.snap_to_vertices ? target.nearest_vertex(carried) : target.surface().closest(carried).position_mm;
+        const Point on_face = options.snap_to_vertices ? nearest_vertex(target, normalised, carried)
+                                                       : normalised.surface.closest(carried).position_mm;
         const Vector displacement = ratio * point.displacement_mm;
         const auto near = std::find_if(controls.from.begin(), controls.from.end(),
                                        [&](const Point& p) { return (p - on_face).norm() < merge_mm; });
         if (near != controls.from.end()) {
             if (remarks)
-                remarks->push_back(fmt::format("{}: '{}' falls on '{}' on this face and was left out", model.expression,
-                                               point.name,
+                remarks->push_back(fmt::format("{}: '{}' falls on '{}' on this face and was left out",
+                                               model.expression.name(), point.name,
                                                controls.names[static_cast<std::size_t>(near - controls.from.begin())]));
             continue;
         }
@@ -105,71 +99,57 @@ Controls carry(const TargetFace& target, const ExpressionModel& model, const Ani
         controls.to.push_back(on_face + displacement);
         controls.names.push_back(point.name);
         if (points)
-            points->push_back({point.name, point.kind, target.average_from_scan().inverse() * on_face,
-                               scan_from_average * displacement, (on_face - carried).norm()});
+            points->push_back({point.name, point.kind, normalised.average_from_target.inverse() * on_face,
+                               target_from_average * displacement, (on_face - carried).norm()});
     }
     return controls;
 }
 
+/// How much of the expression each vertex takes: an AU of one half of the face leaves the other alone.
+std::vector<double> vertex_weights(const geometry::FaceSurface& surface, const ExpressionModel& model,
+                                   const AnimationOptions& options) {
+    std::vector<double> weights(surface.size(), 1.0);
+    if (model.moves_upper_face != model.moves_lower_face)
+        weights = facs::region_weights(surface.vertices_mm, surface.present, surface.landmarks, model.moves_lower_face,
+                                       options.border_mm);
+    if (options.keep.empty()) return weights;
+    if (options.keep.size() != weights.size())
+        throw InputError(fmt::format("keep has {} weights for {} vertices; give one per vertex of the target",
+                                     options.keep.size(), weights.size()));
+    for (std::size_t v = 0; v < weights.size(); ++v) weights[v] *= options.keep[v];
+    return weights;
+}
+
 }  // namespace
 
-std::vector<Vector> expression_field(const TargetFace& target, const ExpressionModel& model,
-                                     const AnimationOptions& options, std::vector<CarriedPoint>* points,
-                                     std::vector<std::string>* remarks) {
+geometry::DisplacementField expression_field(const PreparedTarget& target, const ExpressionModel& model,
+                                             const AnimationOptions& options, std::vector<CarriedPoint>* points,
+                                             std::vector<std::string>* remarks) {
     options.check();
-    if (model.frame != target.frame())
-        throw InputError(
-            fmt::format("{}: the model is in the {} frame and the target in the other; model and animate with "
-                        "the same normalisation",
-                        model.expression, model.frame == modeling::Frame::affine ? "affine" : "similarity"));
     const Controls controls = carry(target, model, options, points, remarks);
     const auto warp = geometry::ThinPlateSpline::fit(
         controls.from, controls.to, {.kernel = options.kernel, .smoothing = options.smoothing}, controls.names);
 
-    // An emotion moves both halves; an AU of one half leaves the other alone.
-    std::vector<double> weights(target.vertices_mm().size(), 1.0);
-    if (model.moves_upper_face != model.moves_lower_face)
-        weights = modeling::region_weights(target.face().grid, target.face().landmarks, model.moves_lower_face,
-                                           options.border_mm);
-    if (!options.keep.empty()) {
-        if (options.keep.size() != weights.size())
-            throw InputError(fmt::format("keep has {} weights for {} vertices; give one per grid vertex",
-                                         options.keep.size(), weights.size()));
-        for (std::size_t v = 0; v < weights.size(); ++v) weights[v] *= options.keep[v];
-    }
+    const auto& surface = target.surface();
+    const auto& normalised = target.normalised(model.normalisation);
+    const auto weights = vertex_weights(surface, model, options);
     std::vector<std::uint32_t> moving;
     std::vector<Point> positions;
-    for (std::uint32_t v = 0; v < target.vertices_mm().size(); ++v)
-        if (target.face().grid.inside(v) && weights[v] > 0) {
+    for (std::uint32_t v = 0; v < surface.size(); ++v)
+        if (surface.present[v] && weights[v] > 0) {
             moving.push_back(v);
-            positions.push_back(target.vertices_mm()[v]);
+            positions.push_back(normalised.vertices_mm[v]);
         }
     std::vector<Point> warped(positions.size());
     warp.apply(positions, warped);
-    std::vector<Vector> field(target.vertices_mm().size(), Vector::Zero());
-    for (std::size_t k = 0; k < moving.size(); ++k) field[moving[k]] = weights[moving[k]] * (warped[k] - positions[k]);
+    const Eigen::Matrix3d target_from_average = normalised.average_from_target.linear().inverse();
+    auto field = geometry::DisplacementField::still(surface.size());
+    field.answered = surface.present;
+    for (std::size_t k = 0; k < moving.size(); ++k) {
+        const Vector displacement = weights[moving[k]] * (warped[k] - positions[k]);
+        field.mm[moving[k]] = target_from_average * displacement;
+    }
     return field;
-}
-
-FieldExtent field_extent(const geometry::QuadGrid& grid, std::span<const Vector> field_mm,
-                         const Eigen::Matrix3d& frame_from_field) {
-    FieldExtent extent;
-    const auto keep_largest = [&](double& largest, const Vector& difference) {
-        const double length = (frame_from_field * difference).norm();
-        if (!(length <= largest)) largest = std::isnan(length) ? std::numeric_limits<double>::infinity() : length;
-    };
-    for (int row = 0; row < grid.rows; ++row)
-        for (int col = 0; col < grid.cols; ++col) {
-            const auto a = grid.index(row, col);
-            if (!grid.inside(a)) continue;
-            keep_largest(extent.largest_displacement_mm, field_mm[a]);
-            for (const auto& [r, c] : {std::pair{row + 1, col}, std::pair{row, col + 1}}) {
-                if (r >= grid.rows || c >= grid.cols) continue;
-                const auto b = grid.index(r, c);
-                if (grid.inside(b)) keep_largest(extent.largest_neighbour_step_mm, field_mm[a] - field_mm[b]);
-            }
-        }
-    return extent;
 }
 
 double lip_parting_mm(const ExpressionModel& model) {
@@ -201,32 +181,34 @@ double lip_parting_mm(const ExpressionModel& model) {
         const double y = point.position_mm.y();
         if (y > upper->position_mm.y() + beyond_red_mm || y < lower->position_mm.y() - beyond_red_mm) continue;
         Lip& lip = y > seam_y ? above : below;
-        const bool anchor = point.kind == modeling::ControlKind::anchor;
+        const bool anchor = point.kind == facs::ControlKind::anchor;
         (anchor ? lip.held : lip.moved) += point.displacement_mm.y();
         ++(anchor ? lip.anchors : lip.points);
     }
     return above.rise_mm() - below.rise_mm();
 }
 
-bool lips_closed(const preprocessing::Face& neutral) {
+std::optional<bool> lips_closed(const geometry::FaceSurface& neutral) {
+    if (!neutral.grid) return std::nullopt;
     const auto* upper = neutral.landmarks.find("upper_lip_inner");
     const auto* lower = neutral.landmarks.find("lower_lip_inner");
     const auto* left = neutral.landmarks.find("mouth_corner_left");
     const auto* right = neutral.landmarks.find("mouth_corner_right");
-    if (!upper || !lower || !left || !right) return false;
-    const auto& grid = neutral.grid;
+    if (!upper || !lower || !left || !right) return std::nullopt;
+    const auto [rows, cols] = *neutral.grid;
+    const auto vertex = [cols = cols](int row, int col) { return static_cast<std::size_t>(row * cols + col); };
     const double middle_x = (left->position_mm.x() + right->position_mm.x()) / 2;
     const double quarter_mm = std::abs(left->position_mm.x() - right->position_mm.x()) / 4;
     const auto [low, high] = std::minmax({upper->position_mm.y(), lower->position_mm.y()});
-    const double cell_mm = grid.vertices_mm[grid.index(1, 0)].y() - grid.vertices_mm[0].y();
+    const double cell_mm = neutral.vertices_mm[vertex(1, 0)].y() - neutral.vertices_mm[0].y();
     int columns = 0, open = 0;
-    for (int col = 0; col < grid.cols; ++col) {
-        if (std::abs(grid.vertices_mm[grid.index(0, col)].x() - middle_x) > quarter_mm) continue;
+    for (int col = 0; col < cols; ++col) {
+        if (std::abs(neutral.vertices_mm[vertex(0, col)].x() - middle_x) > quarter_mm) continue;
         bool gap = false;
-        for (int row = 0; row < grid.rows; ++row) {
-            const auto v = grid.index(row, col);
-            const double y = grid.vertices_mm[v].y();
-            gap = gap || (y > low - cell_mm && y < high + cell_mm && !grid.measured(v));
+        for (int row = 0; row < rows; ++row) {
+            const auto v = vertex(row, col);
+            const double y = neutral.vertices_mm[v].y();
+            gap = gap || (y > low - cell_mm && y < high + cell_mm && !neutral.measured[v]);
         }
         ++columns;
         open += gap ? 1 : 0;
@@ -240,15 +222,15 @@ namespace {
 /// that part them (AU 25 of the built-in faces: 1.3 to 2.5 mm, AU 26 and 27: 2.9 to 10 mm).
 constexpr double parted_mm = 1.25;
 
-void remark_closed_lips(const TargetFace& target, std::span<const WeightedExpression> expressions,
+void remark_closed_lips(const PreparedTarget& target, std::span<const WeightedExpression> expressions,
                         std::vector<std::string>& remarks) {
-    if (!lips_closed(target.face())) return;
+    if (!lips_closed(target.surface()).value_or(false)) return;
     for (const auto& [model, magnitude] : expressions)
         if (magnitude * lip_parting_mm(*model) > parted_mm)
             remarks.push_back(
                 fmt::format("{} pulls the lips apart, but those of {} are closed: they are one piece of surface, which "
                             "is stretched and does not open; take a target whose neutral scan has open lips",
-                            model->expression, target.face().id.name()));
+                            model->expression.name(), target.name()));
 }
 
 [[noreturn]] void refuse_overflow(const std::string& what) {
@@ -258,44 +240,56 @@ void remark_closed_lips(const TargetFace& target, std::span<const WeightedExpres
                     what));
 }
 
+/// One expression alone at magnitude 1, and what is to be said of it.
+geometry::DisplacementField shape_of(const PreparedTarget& target, const WeightedExpression& weighted,
+                                     const AnimationOptions& options, AnimatedFace& result) {
+    const auto& [model, magnitude] = weighted;
+    if (!std::isfinite(magnitude) || magnitude < 0)
+        throw InputError(
+            fmt::format("magnitude of {} is {}; give 0 (neutral) or more", model->expression.name(), magnitude));
+    if (magnitude > 1)
+        result.remarks.push_back(fmt::format("magnitude of {} is {}: beyond what the source did, so it exaggerates",
+                                             model->expression.name(), magnitude));
+    auto shape = expression_field(target, *model, options, &result.points, &result.remarks);
+    if (const auto extent = geometry::field_extent(target.surface(), shape.mm, magnitude * Eigen::Matrix3d::Identity());
+        !std::isfinite(extent.largest_displacement_mm))
+        refuse_overflow(fmt::format("{} at magnitude {}", model->expression.name(), magnitude));
+    return shape;
+}
+
 }  // namespace
 
-AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpression> expressions,
+AnimatedFace animate(const PreparedTarget& target, std::span<const WeightedExpression> expressions,
                      const AnimationOptions& options) {
     AnimatedFace result;
-    result.grid = target.face().grid;
     result.combination = options.combination;
-    const std::size_t n = result.grid.size();
-    const Eigen::Matrix3d scan_from_average = target.average_from_scan().linear().inverse();
-    for (const auto& [model, magnitude] : expressions) {
-        if (!std::isfinite(magnitude) || magnitude < 0)
-            throw InputError(
-                fmt::format("magnitude of {} is {}; give 0 (neutral) or more", model->expression, magnitude));
-        if (magnitude > 1)
-            result.remarks.push_back(fmt::format("magnitude of {} is {}: beyond what the source did, so it exaggerates",
-                                                 model->expression, magnitude));
-        auto field = expression_field(target, *model, options, &result.points, &result.remarks);
-        for (auto& displacement : field) displacement = scan_from_average * displacement;
-        if (const auto extent = field_extent(result.grid, field, magnitude * Eigen::Matrix3d::Identity());
-            !std::isfinite(extent.largest_displacement_mm))
-            refuse_overflow(fmt::format("{} at magnitude {}", model->expression, magnitude));
-        result.fields_mm.push_back(std::move(field));
-    }
+    for (const auto& weighted : expressions) result.shapes.push_back(shape_of(target, weighted, options, result));
     remark_closed_lips(target, expressions, result.remarks);
-    result.displacement_mm.assign(n, Vector::Zero());
+    const auto& surface = target.surface();
+    result.field = geometry::DisplacementField::still(surface.size());
+    result.field.answered = surface.present;
     std::vector<Vector> pulls(expressions.size());
-    for (std::size_t v = 0; v < n; ++v) {
-        if (!result.grid.inside(v)) continue;
-        for (std::size_t k = 0; k < pulls.size(); ++k) pulls[k] = expressions[k].magnitude * result.fields_mm[k][v];
+    for (std::size_t v = 0; v < surface.size(); ++v) {
+        if (!surface.present[v]) continue;
+        for (std::size_t k = 0; k < pulls.size(); ++k) pulls[k] = expressions[k].magnitude * result.shapes[k].mm[v];
         if (options.combination == Combination::parallel)
-            result.displacement_mm[v] = parallel_resultant(pulls);
+            result.field.mm[v] = parallel_resultant(pulls);
         else
-            for (const auto& pull : pulls) result.displacement_mm[v] += pull;
-        result.grid.vertices_mm[v] += result.displacement_mm[v];
+            for (const auto& pull : pulls) result.field.mm[v] += pull;
     }
-    result.extent = field_extent(result.grid, result.displacement_mm);
+    result.extent = geometry::field_extent(surface, result.field.mm);
     if (!std::isfinite(result.extent.largest_displacement_mm)) refuse_overflow("the expressions together");
     return result;
+}
+
+geometry::Mesh animate_mesh(const geometry::Mesh& mesh, const geometry::Landmarks& landmarks,
+                            const preprocessing::AverageFace& average, std::span<const WeightedExpression> expressions,
+                            const AnimationOptions& options, AnimatedFace* animated) {
+    const PreparedTarget target(geometry::face_surface(mesh, landmarks), average);
+    auto result = animate(target, expressions, options);
+    auto moved = geometry::moved(mesh, result.field);
+    if (animated) *animated = std::move(result);
+    return moved;
 }
 
 }  // namespace mimik::animation

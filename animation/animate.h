@@ -1,16 +1,15 @@
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "geometry/quad_grid.h"
-#include "geometry/surface_index.h"
+#include "animation/prepared_target.h"
+#include "base/fields.h"
+#include "geometry/face_surface.h"
 #include "geometry/thin_plate_spline.h"
 #include "modeling/expression_model.h"
-#include "modeling/face_regions.h"
-#include "preprocessing/face.h"
 
 namespace mimik::animation {
 
@@ -20,6 +19,10 @@ enum class Combination {
     parallel  ///< Bui's way: contractions that pull one point at the same time give a resultant inside the span of the
               ///< pulls (combine.h has the formula); two equal AUs do not double
 };
+
+[[nodiscard]] constexpr const char* to_string(Combination combination) {
+    return combination == Combination::parallel ? "parallel" : "sum";
+}
 
 struct AnimationOptions {
     geometry::SplineKernel kernel = geometry::SplineKernel::r;
@@ -32,40 +35,26 @@ struct AnimationOptions {
     bool snap_to_vertices = false;  ///< carried points go to the nearest vertex (thesis), not the nearest surface point
     double border_mm = 12.0;        ///< width over which an AU fades at the border of its region; 0: hard cut (thesis)
     Combination combination = Combination::sum;
-    /// How much of its displacement each grid vertex of the target keeps, e.g. modeling::held_weights; empty: all of
+    /// How much of its displacement each vertex of the target keeps, e.g. modeling::held_weights; empty: all of
     /// it.
     std::vector<double> keep;
 
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("kernel", self.kernel);
+        visit("smoothing", self.smoothing);
+        visit("landmark_smoothing", self.landmark_smoothing);
+        visit("anchors", self.anchors);
+        visit("mouth_ratio", self.mouth_ratio);
+        visit("snap_to_vertices", self.snap_to_vertices);
+        visit("border_mm", self.border_mm);
+        visit("combination", self.combination);
+    }
     /// The thesis as printed: r^2 ln r^2, no anchors, hard cut between upper and lower face.
     [[nodiscard]] static AnimationOptions thesis();
     void check() const;
 };
-
-/// A neutral face made ready to be animated many times: its surface and landmarks in the average frame.
-class TargetFace {
-public:
-    TargetFace(const preprocessing::Face& neutral, modeling::Frame frame, bool snapped_landmarks = false);
-
-    [[nodiscard]] const preprocessing::Face& face() const { return *face_; }
-    [[nodiscard]] modeling::Frame frame() const { return frame_; }
-    [[nodiscard]] const geometry::Transform& average_from_scan() const { return average_from_scan_; }
-    [[nodiscard]] const geometry::Landmarks& landmarks() const { return landmarks_; }  ///< average frame
-    [[nodiscard]] double mouth_width_mm() const { return mouth_width_mm_; }            ///< average frame
-    /// Grid vertices in the average frame; those outside the face are NaN and stay where they are.
-    [[nodiscard]] std::span<const geometry::Point> vertices_mm() const { return vertices_mm_; }
-    [[nodiscard]] const geometry::SurfaceIndex& surface() const { return *surface_; }
-    [[nodiscard]] geometry::Point nearest_vertex(const geometry::Point& query_mm) const;
-
-private:
-    const preprocessing::Face* face_;
-    modeling::Frame frame_;
-    geometry::Transform average_from_scan_;
-    geometry::Landmarks landmarks_;
-    double mouth_width_mm_ = 0;
-    std::vector<geometry::Point> vertices_mm_;
-    std::vector<std::uint32_t> inside_;
-    std::shared_ptr<const geometry::SurfaceIndex> surface_;
-};
+static_assert(base::lists_every_field<AnimationOptions>(1));
 
 struct WeightedExpression {
     const modeling::ExpressionModel* model = nullptr;
@@ -75,20 +64,11 @@ struct WeightedExpression {
 /// One control point on the target, for figures and for those who want to know.
 struct CarriedPoint {
     std::string name;
-    modeling::ControlKind kind = modeling::ControlKind::muscle;
-    geometry::Point position_mm;       ///< on the target's neutral face, scanner frame
-    geometry::Vector displacement_mm;  ///< at magnitude 1, scanner frame
+    facs::ControlKind kind = facs::ControlKind::muscle;
+    geometry::Point position_mm;       ///< on the target's neutral face, its frame
+    geometry::Vector displacement_mm;  ///< at magnitude 1, the target's frame
     double projection_mm = 0.0;        ///< how far the spline's answer lay from the target's surface, average frame
 };
-
-/// How far a field moves the vertices inside a grid; infinite where a number is not finite.
-struct FieldExtent {
-    double largest_displacement_mm = 0.0;
-    double largest_neighbour_step_mm = 0.0;  ///< largest change of displacement between neighbouring vertices
-};
-/// @param frame_from_field  linear part of the way to the frame in which lengths are wanted
-[[nodiscard]] FieldExtent field_extent(const geometry::QuadGrid& grid, std::span<const geometry::Vector> field_mm,
-                                       const Eigen::Matrix3d& frame_from_field = Eigen::Matrix3d::Identity());
 
 /// How far apart an expression pulls the lips at magnitude 1, mm: the mean rise of the model's points on the upper lip
 /// less that of those on the lower; negative where it presses them together, 0 without landmarks of the lips.
@@ -96,32 +76,40 @@ struct FieldExtent {
 
 /// Whether the lips of a neutral face are one piece of surface, which can be stretched but not opened: in more than
 /// half of the columns of the mouth's middle half all vertices between the inner lips, a cell to spare, were measured.
-/// False where a landmark is missing.
-[[nodiscard]] bool lips_closed(const preprocessing::Face& neutral);
+/// Empty where the surface is no grid or lacks a landmark of the mouth: nothing is known.
+[[nodiscard]] std::optional<bool> lips_closed(const geometry::FaceSurface& neutral);
 
 struct AnimatedFace {
-    geometry::QuadGrid grid;                        ///< scanner frame of the target's neutral scan; origins as there
-    std::vector<geometry::Vector> displacement_mm;  ///< per vertex, scanner frame
-    Combination combination = Combination::sum;     ///< of fields_mm, into displacement_mm
-    std::vector<std::vector<geometry::Vector>> fields_mm;  ///< of each expression alone at magnitude 1, scanner frame
+    geometry::DisplacementField field;                ///< of all expressions as they are set, the target's frame
+    Combination combination = Combination::sum;       ///< of `shapes`, into `field`
+    std::vector<geometry::DisplacementField> shapes;  ///< of each expression alone at magnitude 1
     std::vector<CarriedPoint> points;
     std::vector<std::string> remarks;  ///< merged points, magnitudes above 1, closed lips, ...
-    FieldExtent extent;                ///< of displacement_mm, scanner frame
+    geometry::FieldExtent extent;      ///< of `field`
 };
 
-/// The displacement of every vertex under one model at magnitude 1, average frame. The field at another magnitude m is
-/// m times this one: the spline is linear in the displacements of its controls. Carries the controls by the landmark
+/// The motion of every vertex under one model at magnitude 1, in the target's frame. The field at another magnitude m
+/// is m times this one: the spline is linear in the displacements of its controls. Carries the controls by the landmark
 /// spline (Eq. 5.7) and on to the surface, moves them by Eqs 5.8 / 5.10 and warps by the spline of Eq. 5.9.
-/// @throws InputError if model and target are in different frames; NumericalError from the splines.
-[[nodiscard]] std::vector<geometry::Vector> expression_field(const TargetFace& target,
-                                                             const modeling::ExpressionModel& model,
-                                                             const AnimationOptions& options,
-                                                             std::vector<CarriedPoint>* points = nullptr,
-                                                             std::vector<std::string>* remarks = nullptr);
+/// @throws InputError for bad options; NumericalError from the splines.
+[[nodiscard]] geometry::DisplacementField expression_field(const PreparedTarget& target,
+                                                           const modeling::ExpressionModel& model,
+                                                           const AnimationOptions& options,
+                                                           std::vector<CarriedPoint>* points = nullptr,
+                                                           std::vector<std::string>* remarks = nullptr);
 
 /// Animates a neutral face with one or more expressions. @throws as expression_field; NumericalError naming the
 /// expression whose displacements are not finite.
-[[nodiscard]] AnimatedFace animate(const TargetFace& target, std::span<const WeightedExpression> expressions,
+[[nodiscard]] AnimatedFace animate(const PreparedTarget& target, std::span<const WeightedExpression> expressions,
                                    const AnimationOptions& options = {});
+
+/// Anybody's mesh, animated: its own vertices, faces, texture and attributes, moved by expressions of a workspace.
+/// @param landmarks  on the mesh, our names, in its frame: +x the subject's left, +y up, +z out of the face, mm.
+/// @param animated   what else is known of the animation; may be null.
+/// @throws as animate; InputError if the mesh has no face or a landmark is missing.
+[[nodiscard]] geometry::Mesh animate_mesh(const geometry::Mesh& mesh, const geometry::Landmarks& landmarks,
+                                          const preprocessing::AverageFace& average,
+                                          std::span<const WeightedExpression> expressions,
+                                          const AnimationOptions& options = {}, AnimatedFace* animated = nullptr);
 
 }  // namespace mimik::animation

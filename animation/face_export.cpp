@@ -8,10 +8,10 @@
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "io/glb.h"
 #include "io/image.h"
 #include "io/mesh_io.h"
-#include "base/text.h"
 
 namespace mimik::animation {
 
@@ -23,19 +23,18 @@ namespace {
 enum class Positions { neutral, animated };
 
 /// The grid in the frame asked for, with the displacement of its neutral vertices as an attribute.
-Mesh mesh_of(const AnimatedFace& animated, const TargetFace& target, const ExportOptions& options, Positions positions,
-             std::vector<std::uint32_t>* kept_vertices = nullptr) {
-    const bool average = options.frame == OutputFrame::average;
+Mesh mesh_of(const AnimatedFace& animated, const preprocessing::Face& neutral, const ExportOptions& options,
+             Positions positions, std::vector<std::uint32_t>* kept_vertices = nullptr) {
     std::vector<std::uint32_t> kept;
-    Mesh mesh = geometry::to_mesh(target.face().grid, options.bridged, &kept);
+    Mesh mesh = geometry::to_mesh(neutral.grid, options.bridged, &kept);
     geometry::VertexAttribute displacement{"displacement_mm", 3, {}};
     for (std::size_t k = 0; k < kept.size(); ++k) {
-        Vector d = animated.displacement_mm[kept[k]];
+        Vector d = animated.field.mm[kept[k]];
         auto& position_mm = mesh.vertices_mm[k];
         if (positions == Positions::animated) position_mm += d;
-        if (average) {
-            position_mm = target.average_from_scan() * position_mm;
-            d = target.average_from_scan().linear() * d;
+        if (options.average_from_scan) {
+            position_mm = *options.average_from_scan * position_mm;
+            d = options.average_from_scan->linear() * d;
         }
         displacement.values.insert(displacement.values.end(), d.begin(), d.end());
     }
@@ -51,11 +50,11 @@ struct Shape {
 };
 
 std::vector<std::string> write_glb_face(const std::filesystem::path& file, const AnimatedFace& animated,
-                                        const TargetFace& target, std::span<const NamedMagnitude> names,
+                                        const preprocessing::Face& neutral, std::span<const NamedMagnitude> names,
                                         const std::filesystem::path& texture_file, const ExportOptions& options) {
-    if (names.size() != animated.fields_mm.size())
+    if (names.size() != animated.shapes.size())
         throw InputError(fmt::format("{}: {} names for {} expressions; give each morph target its name", file.string(),
-                                     names.size(), animated.fields_mm.size()));
+                                     names.size(), animated.shapes.size()));
     std::vector<std::string> remarks;
     std::vector<Shape> shapes;
     if (animated.combination == Combination::parallel && names.size() > 1) {
@@ -63,7 +62,7 @@ std::vector<std::string> write_glb_face(const std::filesystem::path& file, const
         std::vector<std::string> parts;
         for (const auto& name : names) parts.push_back(name.name);
         const auto joined = fmt::format("{}", fmt::join(parts, "+"));
-        shapes.push_back({{joined, 1.0, {}}, &animated.displacement_mm});
+        shapes.push_back({{joined, 1.0, {}}, &animated.field.mm});
         remarks.push_back(fmt::format("morph targets of a GLB add up, so the parallel resultant is one, {}", joined));
     } else {
         std::set<std::string> taken;
@@ -71,17 +70,16 @@ std::vector<std::string> write_glb_face(const std::filesystem::path& file, const
             if (!taken.insert(names[k].name).second)
                 throw InputError(fmt::format("{}: two morph targets would be called {}; give each expression once",
                                              file.string(), names[k].name));
-            shapes.push_back({names[k], &animated.fields_mm[k]});
+            shapes.push_back({names[k], &animated.shapes[k].mm});
         }
     }
     std::vector<std::uint32_t> kept, source;
-    const auto neutral = mesh_of(animated, target, options, Positions::neutral, &kept);
-    auto mesh = io::glb_mesh(neutral, &source);
-    mesh.name = target.face().id.subject;
+    const auto resting = mesh_of(animated, neutral, options, Positions::neutral, &kept);
+    auto mesh = io::glb_mesh(resting, &source);
+    mesh.name = neutral.id.subject;
     if (!texture_file.empty()) mesh.texture_png = io::read_as_png(texture_file);
-    const Eigen::Matrix3d turn = options.frame == OutputFrame::average
-                                     ? Eigen::Matrix3d(target.average_from_scan().linear())
-                                     : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+    const Eigen::Matrix3d turn = options.average_from_scan ? Eigen::Matrix3d(options.average_from_scan->linear())
+                                                           : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     for (const auto& shape : shapes) {
         io::MorphTarget morph{shape.name.name, {}, shape.name.magnitude, shape.name.arkit_shape};
         for (const auto v : source) morph.displacement_mm.push_back(turn * (*shape.displacement_mm)[kept[v]]);
@@ -121,15 +119,15 @@ std::filesystem::path vertex_values_file(const std::filesystem::path& file) {
     return file.parent_path() / (file.stem().string() + "_vertices.csv");
 }
 
-Mesh to_mesh(const AnimatedFace& animated, const TargetFace& target, const ExportOptions& options) {
-    return mesh_of(animated, target, options, Positions::animated);
+Mesh to_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral, const ExportOptions& options) {
+    return mesh_of(animated, neutral, options, Positions::animated);
 }
 
 std::vector<std::string> write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated,
-                                             const TargetFace& target, std::span<const NamedMagnitude> names,
+                                             const preprocessing::Face& neutral, std::span<const NamedMagnitude> names,
                                              const std::filesystem::path& texture_file, const ExportOptions& options) {
     const auto extension = base::lower_case(file.extension().string());
-    if (extension == ".glb") return write_glb_face(file, animated, target, names, texture_file, options);
+    if (extension == ".glb") return write_glb_face(file, animated, neutral, names, texture_file, options);
     if (extension != ".ply" && extension != ".obj" && extension != ".vtp")
         throw InputError(fmt::format("{}: an animated face is written as .ply, .obj, .vtp or .glb, not '{}'",
                                      file.string(), extension));
@@ -141,7 +139,7 @@ std::vector<std::string> write_animated_face(const std::filesystem::path& file, 
         base::write_atomically(copy, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
         write_options.texture_file = copy.filename().string();
     }
-    const auto mesh = to_mesh(animated, target, options);
+    const auto mesh = to_mesh(animated, neutral, options);
     std::vector<std::string> remarks;
     if (const auto values = vertex_values_file(file); !values.empty()) {
         write_vertex_values(values, mesh);

@@ -1,26 +1,26 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "animation/animate.h"
 #include "geometry/mesh.h"
+#include "preprocessing/face.h"
 
 namespace mimik::animation {
 
-enum class OutputFrame { scanner, average };
-
 struct ExportOptions {
-    OutputFrame frame = OutputFrame::scanner;
+    std::optional<geometry::Transform> average_from_scan = {};  ///< set: in the average frame; else in the scanner's
     geometry::BridgedVertices bridged = geometry::BridgedVertices::leave_out;  ///< quads over holes: not measurements
 };
 
-/// The animated face as a mesh: quads of the grid, texture coordinates, attributes `displacement_mm` (3 per vertex, in
-/// the frame of the mesh) and `origin` (1 measured, 2 bridged). Vertices outside the face (and bridged ones, if they
-/// are left out) are dropped, the order of the rest is kept.
-[[nodiscard]] geometry::Mesh to_mesh(const AnimatedFace& animated, const TargetFace& target,
+/// The animated face of a scan as a mesh: quads of the grid, texture coordinates, attributes `displacement_mm` (3 per
+/// vertex, in the frame of the mesh) and `origin` (1 measured, 2 bridged). Vertices outside the face (and bridged ones,
+/// if they are left out) are dropped, the order of the rest is kept.
+[[nodiscard]] geometry::Mesh to_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral,
                                      const ExportOptions& options = {});
 
 /// One morph target of the GLB: an expression at magnitude 1 and how far it is set.
@@ -39,12 +39,13 @@ struct NamedMagnitude {
 /// up, so several expressions combined in parallel are one target, the resultant, "AU12+AU4". The attributes of to_mesh
 /// go along: in a .glb as _DISPLACEMENT_MM (of all expressions as they are set) and _ORIGIN, of an .obj in a table
 /// beside it (vertex_values_file).
+/// @param neutral  what was animated
 /// @param texture_file  PNG or JPEG of the scan; empty: none.
-/// @param names  one per expression, in the order of `animated.fields_mm`; used by GLB only.
+/// @param names  one per expression, in the order of `animated.shapes`; used by GLB only.
 /// @return remarks: what the file cannot hold as it was asked for.
 /// @throws InputError for another extension, equal names of morph targets, or if the file cannot be written.
 std::vector<std::string> write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated,
-                                             const TargetFace& target, std::span<const NamedMagnitude> names,
+                                             const preprocessing::Face& neutral, std::span<const NamedMagnitude> names,
                                              const std::filesystem::path& texture_file,
                                              const ExportOptions& options = {});
 

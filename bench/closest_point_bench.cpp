@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
+#include "base/parallel.h"
 #include "bench/bench_scan.h"
 #include "bench/peers/closest_point_peer.h"
-#include "base/parallel.h"
 #include "geometry/surface_index.h"
 
 namespace {

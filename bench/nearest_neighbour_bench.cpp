@@ -3,9 +3,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include "base/parallel.h"
 #include "bench/bench_scan.h"
 #include "bench/peers/nearest_neighbour_peer.h"
-#include "base/parallel.h"
 #include "geometry/point_index.h"
 
 namespace {

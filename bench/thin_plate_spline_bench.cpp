@@ -4,9 +4,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include "base/parallel.h"
 #include "bench/bench_scan.h"
 #include "bench/peers/thin_plate_spline_peer.h"
-#include "base/parallel.h"
 #include "geometry/thin_plate_spline.h"
 
 namespace {

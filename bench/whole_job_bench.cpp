@@ -5,10 +5,10 @@
 #include <benchmark/benchmark.h>
 
 #include "animation/animate.h"
+#include "base/parallel.h"
 #include "database/bnt.h"
 #include "database/bosphorus_landmarks.h"
 #include "evaluation/surface_distance.h"
-#include "base/parallel.h"
 #include "modeling/control_points.h"
 #include "preprocessing/normalisation.h"
 #include "preprocessing/workspace.h"
@@ -89,7 +89,7 @@ Face neutral_face(const database::ScanEntry& entry) {
 }
 
 void tie(Face& face, const Face& neutral) {
-    const auto stable = modeling::stable_vertices(modeling::builtin_catalogue(), face.id.code, neutral);
+    const auto stable = modeling::stable_vertices(facs::builtin_catalogue(), face.id.code, neutral);
     preprocessing::align_to_neutral(face, neutral, stable);
     face.average_from_scan = neutral.average_from_scan * face.neutral_from_scan;
     face.average_from_scan_affine = preprocessing::affine_normalisation(face.snapped_landmarks, average().landmarks);
@@ -113,8 +113,7 @@ const Faces& faces() {
 }
 
 modeling::ExpressionModel measured() {
-    return modeling::measure_expression(modeling::builtin_catalogue(), "12", average(), faces().neutral,
-                                        faces().smiling);
+    return modeling::measure_expression(facs::builtin_catalogue(), "12", average(), faces().neutral, faces().smiling);
 }
 
 /// The target's real expressive scan, in the frame of its neutral.
@@ -187,19 +186,19 @@ void mimik_target_made_ready(benchmark::State& state) {
     const auto& made = faces();
     base::set_thread_count(1);
     for (auto _ : state) {
-        benchmark::DoNotOptimize(animation::TargetFace(made.target, modeling::Frame::similarity));
+        benchmark::DoNotOptimize(animation::TargetFace(made.target, modeling::Normalisation::similarity));
         benchmark::DoNotOptimize(RealScan(made.truth));
     }
 }
 void mimik_transfer_and_evaluation_both_ways(benchmark::State& state) {
-    const animation::TargetFace target(faces().target, modeling::Frame::similarity);
+    const animation::TargetFace target(faces().target, modeling::Normalisation::similarity);
     const RealScan real(faces().truth);
     const auto model = measured();
     base::set_thread_count(1);
     for (auto _ : state) benchmark::DoNotOptimize(transfer(target, model, real));
 }
 void mimik_eight_transfers_threads(benchmark::State& state) {
-    const animation::TargetFace target(faces().target, modeling::Frame::similarity);
+    const animation::TargetFace target(faces().target, modeling::Normalisation::similarity);
     const RealScan real(faces().truth);
     const auto model = measured();
     base::set_thread_count(static_cast<int>(state.range(0)));

@@ -10,11 +10,11 @@
 
 #include "animation/animate.h"
 #include "animation/face_export.h"
+#include "base/errors.h"
 #include "cli/command.h"
 #include "cli/method_options.h"
 #include "cli/regions_file.h"
 #include "cli/subject_names.h"
-#include "base/errors.h"
 #include "io/json_values.h"
 #include "modeling/region_labels.h"
 #include "modeling/source_expression.h"
@@ -81,18 +81,18 @@ int run(Arguments& arguments) {
     if (!arguments.action_units.empty()) modeling::check_source(workspace, source, model_options);
 
     const auto neutral = workspace.face(workspace.neutral(arguments.target));
-    const animation::TargetFace target(neutral, model_options.frame, arguments.method.thesis());
+    const animation::TargetFace target(neutral, model_options.normalisation, arguments.method.thesis());
     std::vector<modeling::ExpressionModel> models;
     std::vector<animation::WeightedExpression> expressions;
     std::vector<animation::NamedMagnitude> names;
     std::vector<std::string> remarks, failures;
     const auto named = [&](const modeling::ExpressionModel& model, double magnitude) {
         return animation::NamedMagnitude{
-            arguments.arkit_names ? modeling::arkit_name(catalogue, model.expression) : model.expression, magnitude,
-            modeling::arkit_shape(catalogue, model.expression)};
+            arguments.arkit_names ? facs::arkit_name(catalogue, model.expression) : model.expression, magnitude,
+            facs::arkit_shape(catalogue, model.expression)};
     };
     for (const auto& text : arguments.action_units) {
-        const auto selection = modeling::parse_selection(text);
+        const auto selection = facs::split_magnitude(text);
         models.push_back(modeling::model_from_workspace(workspace, catalogue, selection.code, source, model_options));
         for (const auto& scan : models.back().unusable_scans)
             failures.push_back(fmt::format("{}: left out of the mean: {}", models.back().expression, scan));
@@ -100,8 +100,7 @@ int run(Arguments& arguments) {
     }
     const auto here = arguments.method.provenance(catalogue, workspace.average());
     for (const auto& text : arguments.model_files) {
-        const auto file =
-            std::filesystem::exists(text) ? modeling::Selection{text, 1.0} : modeling::parse_selection(text);
+        const auto file = std::filesystem::exists(text) ? facs::Selection{text, 1.0} : facs::split_magnitude(text);
         models.push_back(read_model(workspace, file.code, arguments.target, here, remarks));
         names.push_back(named(models.back(), file.magnitude));
     }

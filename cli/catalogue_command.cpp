@@ -9,10 +9,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.h"
 #include "base/file.h"
+#include "cli/command.h"
+#include "facs/facs_catalogue.h"
 #include "io/json_values.h"
-#include "modeling/facs_catalogue.h"
 
 namespace mimik::cli {
 namespace {
@@ -27,15 +27,15 @@ struct PointCounts {
     std::ptrdiff_t muscle, wrinkle;
 };
 
-PointCounts count_points(const modeling::ActionUnit& unit) {
-    const auto of = [&](modeling::ControlKind kind) {
+PointCounts count_points(const facs::ActionUnit& unit) {
+    const auto of = [&](facs::ControlKind kind) {
         return std::count_if(unit.points.begin(), unit.points.end(),
                              [&](const auto& point) { return point.kind == kind; });
     };
-    return {of(modeling::ControlKind::muscle), of(modeling::ControlKind::wrinkle)};
+    return {of(facs::ControlKind::muscle), of(facs::ControlKind::wrinkle)};
 }
 
-nlohmann::json unit_to_json(const modeling::ActionUnit& unit) {
+nlohmann::json unit_to_json(const facs::ActionUnit& unit) {
     auto muscles = nlohmann::json::array();
     for (const auto& muscle : unit.muscles)
         muscles.push_back({{"name", muscle.name}, {"source", muscle.source}, {"reference", muscle.reference}});
@@ -53,7 +53,7 @@ nlohmann::json unit_to_json(const modeling::ActionUnit& unit) {
 }
 
 /// Every reference once, with the AUs whose muscles it stands for.
-void list_references(const modeling::FacsCatalogue& catalogue) {
+void list_references(const facs::FacsCatalogue& catalogue) {
     std::vector<std::pair<std::string_view, std::vector<int>>> references;
     for (const auto& unit : catalogue.units())
         for (const auto& muscle : unit.muscles) {
@@ -67,7 +67,7 @@ void list_references(const modeling::FacsCatalogue& catalogue) {
         std::cout << fmt::format("  {} (AU {})\n", reference, fmt::join(numbers, ", "));
 }
 
-void list_units(const modeling::FacsCatalogue& catalogue, const std::string& name) {
+void list_units(const facs::FacsCatalogue& catalogue, const std::string& name) {
     std::cout << fmt::format("{}: {} action units; points of one side\n\n", name, catalogue.units().size());
     std::cout << fmt::format("{:>3}  {:<22} {:<6} {:<8} {:>6} {:>8}  {}\n", "AU", "name", "region", "sides", "muscle",
                              "wrinkle", "muscles");
@@ -86,7 +86,7 @@ void list_units(const modeling::FacsCatalogue& catalogue, const std::string& nam
 }
 
 int lint(const Request& request, const std::string& text, const std::string& name) {
-    const auto findings = modeling::lint_catalogue(text);
+    const auto findings = facs::lint_catalogue(text);
     const auto errors = std::count_if(findings.begin(), findings.end(), [](const auto& f) { return f.error; });
     if (request.common.json) {
         auto list = nlohmann::json::array();
@@ -108,14 +108,13 @@ int lint(const Request& request, const std::string& text, const std::string& nam
 int run(const Request& request) {
     const bool own = !request.file.empty();
     const std::string name = own ? request.file : "built-in catalogue";
-    const std::string text =
-        own ? base::read_text(request.file, 1 << 22) : std::string(modeling::builtin_catalogue_text());
+    const std::string text = own ? base::read_text(request.file, 1 << 22) : std::string(facs::builtin_catalogue_text());
     if (request.text) {
         std::cout << text;
         return exit_done;
     }
     if (request.lint) return lint(request, text, name);
-    const auto catalogue = modeling::parse_catalogue(text, name);
+    const auto catalogue = facs::parse_catalogue(text, name);
     if (!request.common.json) {
         list_units(catalogue, name);
         return exit_done;

@@ -8,15 +8,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/errors.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "database/hidden_subjects.h"
 #include "evaluation/surface_distance.h"
-#include "base/errors.h"
+#include "geometry/vertex_attributes.h"
 #include "io/json_values.h"
 #include "io/mesh_io.h"
 #include "io/points_csv.h"
-#include "base/text.h"
-#include "geometry/vertex_attributes.h"
 
 namespace mimik::cli {
 namespace {

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/file.h"
 #include "cli/command.h"
 #include "cli/method_options.h"
 #include "evaluation/experiment.h"
-#include "evaluation/score_table.h"
-#include "base/file.h"
 #include "io/json_values.h"
+#include "report/score_table.h"
 
 namespace mimik::cli {
 namespace {
@@ -25,8 +25,8 @@ struct Arguments {
 
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
-    const auto catalogue = arguments.catalogue_file.empty() ? modeling::builtin_catalogue()
-                                                            : modeling::read_catalogue(arguments.catalogue_file);
+    const auto catalogue =
+        arguments.catalogue_file.empty() ? facs::builtin_catalogue() : facs::read_catalogue(arguments.catalogue_file);
     auto& options = arguments.options;
     refuse_doubles("--method", arguments.methods);
     options.methods.clear();
@@ -42,10 +42,10 @@ int run(Arguments& arguments) {
         const double seconds = estimate.core_seconds / working_threads();
         if (arguments.common.json)
             std::cout << io::json_text(nlohmann::json{{"schema", 1},
-                                                            {"dry_run", true},
-                                                            {"transfers", estimate.transfers},
-                                                            {"seconds", seconds},
-                                                            {"megabytes", 1.0}});
+                                                      {"dry_run", true},
+                                                      {"transfers", estimate.transfers},
+                                                      {"seconds", seconds},
+                                                      {"megabytes", 1.0}});
         else
             std::cout << fmt::format("{} transfers, about {:.0f} s and less than 1 MB of tables\n", estimate.transfers,
                                      seconds);
@@ -58,11 +58,11 @@ int run(Arguments& arguments) {
         report = evaluation::run_experiment(workspace, catalogue, options,
                                             [&](const std::string& what) { progress.advance(what); });
     }
-    const auto markdown = evaluation::to_markdown(report), json = evaluation::to_json(report);
+    const auto markdown = report::to_markdown(report), json = report::to_json(report);
     std::cout << (arguments.common.json ? json : markdown) << std::flush;
     if (!arguments.output.empty()) {
         base::write_atomically(folder / "scores.md", markdown);
-        base::write_atomically(folder / "scores.csv", evaluation::to_csv(report));
+        base::write_atomically(folder / "scores.csv", report::to_csv(report));
         base::write_atomically(folder / "scores.json", json);
     }
     if (!arguments.common.json && !arguments.common.quiet) std::cerr << fmt::format("{:.1f} s\n", report.seconds);

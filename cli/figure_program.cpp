@@ -9,16 +9,16 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.h"
-#include "figures/figure_description.h"
 #include "base/errors.h"
-#include "io/json_values.h"
 #include "base/text.h"
+#include "cli/command.h"
+#include "io/json_values.h"
+#include "report/figure_description.h"
 
 namespace mimik::cli {
 namespace {
 
-using figures::PanelDescription;
+using report::PanelDescription;
 
 /// What is given once for each panel, or once for all of them.
 struct PerPanel {
@@ -78,18 +78,18 @@ void parse_size(const std::string& text, figures::Figure& page) {
     page.panel_height_px = static_cast<int>(height);
 }
 
-void draw(const figures::FigureDescription& description, const std::string& output, const Common& common) {
+void draw(const report::FigureDescription& description, const std::string& output, const Common& common) {
     if (!base::equal_ignoring_case(std::filesystem::path(output).extension().string(), ".png"))
         throw InputError(fmt::format("--output is '{}'; figures are written as .png", output));
-    const auto figure = figures::load_figure(description);
+    const auto figure = report::load_figure(description);
     const auto image = figures::render(figure);
     io::write_png(output, image);
     if (common.json)
         std::cout << io::json_text(nlohmann::ordered_json{{"output", output},
-                                                                {"width_px", image.width},
-                                                                {"height_px", image.height},
-                                                                {"panels", figure.panels.size()},
-                                                                {"drawn_with", figures::drawing_route()}});
+                                                          {"width_px", image.width},
+                                                          {"height_px", image.height},
+                                                          {"panels", figure.panels.size()},
+                                                          {"drawn_with", figures::drawing_route()}});
     else if (!common.quiet)
         std::cout << fmt::format("{}: {} x {} pixels, {} panels\n", output, image.width, image.height,
                                  figure.panels.size());
@@ -98,7 +98,7 @@ void draw(const figures::FigureDescription& description, const std::string& outp
 int run_figure(int argc, char** argv) {
     CLI::App app{"Draws faces side by side, without needing a display.", "mimik-figure"};
     Common common;
-    figures::FigureDescription description;
+    report::FigureDescription description;
     figures::Figure& page = description.page;
     PerPanel given;
     std::string output, file, size, framing = "own";
@@ -152,7 +152,7 @@ int run_figure(int argc, char** argv) {
             for (const auto* option : described)
                 if (option->count() > 0)
                     throw InputError(option->get_name() + " and --description exclude one another: say it in " + file);
-            description = figures::read_figure_description(file);
+            description = report::read_figure_description(file);
         }
         draw(description, output, common);
     });

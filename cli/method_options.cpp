@@ -22,8 +22,8 @@ void MethodArguments::add_to(CLI::App& command) {
     command.add_flag("--no-anchors", no_anchors, "Let the splines move what the AU leaves alone");
 }
 
-modeling::FacsCatalogue MethodArguments::catalogue() const {
-    return catalogue_file.empty() ? modeling::builtin_catalogue() : modeling::read_catalogue(catalogue_file);
+facs::FacsCatalogue MethodArguments::catalogue() const {
+    return catalogue_file.empty() ? facs::builtin_catalogue() : facs::read_catalogue(catalogue_file);
 }
 
 namespace {
@@ -54,7 +54,7 @@ animation::AnimationOptions MethodArguments::animation_options() const {
     return options;
 }
 
-modeling::ModelProvenance MethodArguments::provenance(const modeling::FacsCatalogue& catalogue,
+modeling::ModelProvenance MethodArguments::provenance(const facs::FacsCatalogue& catalogue,
                                                       const preprocessing::AverageFace& average) const {
     return {MIMIK_VERSION,
             name,

@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 
 #include "animation/animate.h"
+#include "facs/facs_catalogue.h"
 #include "geometry/thin_plate_spline.h"
 #include "modeling/expression_model.h"
-#include "modeling/facs_catalogue.h"
 
 namespace mimik::cli {
 
@@ -23,11 +23,11 @@ struct MethodArguments {
 
     void add_to(CLI::App& command);
     [[nodiscard]] bool thesis() const { return name == "thesis"; }
-    [[nodiscard]] modeling::FacsCatalogue catalogue() const;
+    [[nodiscard]] facs::FacsCatalogue catalogue() const;
     [[nodiscard]] modeling::ModelOptions model_options() const;
     [[nodiscard]] animation::AnimationOptions animation_options() const;
     /// What a model made by these switches says of itself.
-    [[nodiscard]] modeling::ModelProvenance provenance(const modeling::FacsCatalogue& catalogue,
+    [[nodiscard]] modeling::ModelProvenance provenance(const facs::FacsCatalogue& catalogue,
                                                        const preprocessing::AverageFace& average) const;
     /// "default", and what the switches change of it: "default_r2logr_no-anchors_catalogue-mine".
     [[nodiscard]] std::string variant_name() const;

@@ -7,19 +7,19 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/errors.h"
 #include "cli/command.h"
 #include "cli/figure_start.h"
 #include "cli/method_options.h"
 #include "cli/subject_names.h"
-#include "evaluation/comparison_panels.h"
-#include "base/errors.h"
 #include "io/json_values.h"
+#include "report/comparison_panels.h"
 
 namespace mimik::cli {
 namespace {
 
-using evaluation::ComparisonFigure;
-using evaluation::ComparisonRequest;
+using report::ComparisonFigure;
+using report::ComparisonRequest;
 
 struct Arguments {
     Common common;
@@ -49,10 +49,10 @@ double panels_of(const Arguments& arguments, const Planned& planned) {
 
 /// A picture per AU; a series is one picture of all AUs.
 std::vector<Planned> plan(const Arguments& arguments, const preprocessing::Workspace& workspace,
-                          const modeling::FacsCatalogue& catalogue, std::vector<std::string>& codes) {
+                          const facs::FacsCatalogue& catalogue, std::vector<std::string>& codes) {
     std::vector<Planned> planned;
     for (const auto& text : arguments.action_units) {
-        auto selection = modeling::parse_selection(text);
+        auto selection = facs::split_magnitude(text);
         selection.code = catalogue.code(selection.code);
         if (!arguments.series.empty() && selection.magnitude != 1.0)
             throw InputError(
@@ -61,17 +61,17 @@ std::vector<Planned> plan(const Arguments& arguments, const preprocessing::Works
         request.expression = selection.code;
         request.method = {arguments.method.name, evaluation::RowKind::one_source, arguments.method.model_options(),
                           arguments.method.animation_options(), selection.magnitude};
-        (void)evaluation::compared_scans(workspace, catalogue, request);  // found out before any work
+        (void)report::compared_scans(workspace, catalogue, request);  // found out before any work
         codes.push_back(selection.code);
-        const auto name = evaluation::comparison_name(catalogue, request);
+        const auto name = report::comparison_name(catalogue, request);
         for (const auto& other : planned)
             if (other.name == name)
                 throw InputError(fmt::format("--au {}: picture {} is asked for twice; give each AU once", text, name));
         planned.push_back({request, name});
     }
     if (arguments.series.empty()) return planned;
-    evaluation::check_series(workspace, catalogue, planned.front().request, codes, arguments.series);
-    return {{planned.front().request, evaluation::series_name(catalogue, planned.front().request, codes)}};
+    report::check_series(workspace, catalogue, planned.front().request, codes, arguments.series);
+    return {{planned.front().request, report::series_name(catalogue, planned.front().request, codes)}};
 }
 
 nlohmann::json to_json(const Planned& planned, const std::vector<std::string>& codes,
@@ -109,11 +109,11 @@ int say_plan(const Arguments& arguments, const std::vector<Planned>& planned) {
     const double seconds = panels * seconds_per_panel, megabytes = panels * megabytes_per_panel;
     if (arguments.common.json)
         std::cout << io::json_text(nlohmann::json{{"schema", 1},
-                                                        {"dry_run", true},
-                                                        {"figures", pictures},
-                                                        {"seconds", seconds},
-                                                        {"megabytes", megabytes},
-                                                        {"failures", nlohmann::json::array()}});
+                                                  {"dry_run", true},
+                                                  {"figures", pictures},
+                                                  {"seconds", seconds},
+                                                  {"megabytes", megabytes},
+                                                  {"failures", nlohmann::json::array()}});
     else
         std::cout << fmt::format("{} pictures of {:.0f} panels: about {:.0f} s, {:.0f} MB in {}\n", planned.size(),
                                  panels, std::max(1.0, seconds), std::max(1.0, megabytes), arguments.output);

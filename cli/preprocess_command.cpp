@@ -8,15 +8,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/errors.h"
 #include "cli/command.h"
 #include "cli/figure_start.h"
 #include "database/scan_database.h"
-#include "base/errors.h"
+#include "facs/facs_catalogue.h"
 #include "io/json_values.h"
 #include "modeling/control_points.h"
-#include "modeling/facs_catalogue.h"
-#include "preprocessing/quality_sheet.h"
 #include "preprocessing/workspace.h"
+#include "report/quality_sheet.h"
 
 namespace mimik::cli {
 namespace {
@@ -35,7 +35,7 @@ constexpr double bytes_per_vertex = 85;
 constexpr double sheet_seconds_per_scan = 0.1, sheet_bytes_per_scan = 75e3;
 
 /// A drawing program that is missing is said once, not once a subject, and nothing is written for it in vain.
-preprocessing::QualitySheetReport draw_sheets(const Arguments& arguments) {
+report::QualitySheetReport draw_sheets(const Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.output);
     try {
         (void)find_figure_program();
@@ -46,8 +46,8 @@ preprocessing::QualitySheetReport draw_sheets(const Arguments& arguments) {
     const auto shown = std::count_if(subjects.begin(), subjects.end(),
                                      [&](const auto& subject) { return !workspace.hidden(subject); });
     Progress progress(arguments.common, "sheets", static_cast<std::size_t>(shown));
-    return preprocessing::draw_quality_sheets(workspace, draw_figure,
-                                              [&](const std::string& subject) { progress.advance(subject); });
+    return report::draw_quality_sheets(workspace, draw_figure,
+                                       [&](const std::string& subject) { progress.advance(subject); });
 }
 
 /// One line for what several scans have in common.
@@ -89,12 +89,12 @@ int say_plan(const Arguments& arguments, const database::ScanDatabase& database,
     const double seconds = (faces * seconds_per_scan + on_sheets * sheet_seconds_per_scan) / working_threads();
     if (arguments.common.json)
         std::cout << io::json_text(nlohmann::json{{"schema", 1},
-                                                        {"dry_run", true},
-                                                        {"scans", scans.size()},
-                                                        {"up_to_date", plan.up_to_date},
-                                                        {"remaining", plan.remaining},
-                                                        {"seconds", seconds},
-                                                        {"megabytes", megabytes}});
+                                                  {"dry_run", true},
+                                                  {"scans", scans.size()},
+                                                  {"up_to_date", plan.up_to_date},
+                                                  {"remaining", plan.remaining},
+                                                  {"seconds", seconds},
+                                                  {"megabytes", megabytes}});
     else
         std::cout << fmt::format("{} scans: {} up to date, {} remain: about {:.0f} s, {:.0f} MB in {}\n", scans.size(),
                                  plan.up_to_date, plan.remaining, seconds, megabytes, arguments.output);
@@ -111,8 +111,8 @@ int run(Arguments& arguments) {
                     [&] { arguments.options.check(); });
     preprocessing::check_workspace_place(database, arguments.output);
     const auto scans = preprocessing::selected_scans(database, arguments.options);
-    const auto catalogue = arguments.catalogue_file.empty() ? modeling::builtin_catalogue()
-                                                            : modeling::read_catalogue(arguments.catalogue_file);
+    const auto catalogue =
+        arguments.catalogue_file.empty() ? facs::builtin_catalogue() : facs::read_catalogue(arguments.catalogue_file);
     arguments.options.stable_region_name = catalogue.content_hash();
     check_output_folder(arguments.output, arguments.dry_run);
     if (arguments.dry_run) return say_plan(arguments, database, scans);
@@ -132,7 +132,7 @@ int run(Arguments& arguments) {
         report = preprocessing::preprocess_database(database, arguments.output, arguments.options, stable_region,
                                                     [&](const std::string& scan) { progress.advance(scan); });
     }
-    preprocessing::QualitySheetReport sheets;
+    report::QualitySheetReport sheets;
     if (arguments.sheets) sheets = draw_sheets(arguments);
     if (arguments.common.json) {
         auto failures = nlohmann::json::array();

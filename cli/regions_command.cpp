@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.h"
-#include "cli/regions_file.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "cli/command.h"
+#include "cli/regions_file.h"
 #include "io/json_values.h"
 #include "modeling/average_fingerprint.h"
 #include "modeling/region_labels.h"

@@ -12,11 +12,11 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.h"
-#include "database/catalogue.h"
 #include "base/errors.h"
-#include "io/json_values.h"
 #include "base/text.h"
+#include "cli/command.h"
+#include "database/scan_index.h"
+#include "io/json_values.h"
 
 namespace mimik::cli {
 namespace {
@@ -29,7 +29,7 @@ struct Request {
     Selection selection;
     std::string side;
     std::vector<std::string> action_units;
-    CatalogueOptions catalogue;
+    ScanIndexOptions index;
     bool no_catalogue = false;
     bool list = false;
 };
@@ -85,7 +85,7 @@ nlohmann::ordered_json json_of(const ScanEntry& entry, const ScanSummary& summar
 }
 
 void print_json(const ScanDatabase& database, const std::vector<const ScanEntry*>& scans,
-                const CatalogueResult& result) {
+                const ScanIndexResult& result) {
     nlohmann::ordered_json json = {{"schema", 1},
                                    {"database", database.root.string()},
                                    {"layout", database.layout == DatabaseLayout::manifest ? "manifest" : "bosphorus"},
@@ -138,7 +138,7 @@ std::string landmark_counts(std::size_t least, std::size_t most) {
 }
 
 void print_subjects(const ScanDatabase& database, const std::vector<const ScanEntry*>& scans,
-                    const CatalogueResult& result) {
+                    const ScanIndexResult& result) {
     // Groups in the order in which Bosphorus counts them, then those it does not have.
     std::vector<std::string> groups = {"N", "E", "LFAU", "UFAU", "CAU", "YR", "PR", "CR", "O", "IGN"};
     std::set<std::string> there;
@@ -176,7 +176,7 @@ void print_subjects(const ScanDatabase& database, const std::vector<const ScanEn
 }
 
 void print_scans(const ScanDatabase& database, const std::vector<const ScanEntry*>& scans,
-                 const CatalogueResult& result) {
+                 const ScanIndexResult& result) {
     std::vector<std::vector<std::string>> rows(1, {"scan", "points", "landmarks", "AU", "side", "FACS", "defects"});
     for (std::size_t i = 0; i < scans.size(); ++i) {
         const auto& entry = *scans[i];
@@ -200,7 +200,7 @@ void print_scans(const ScanDatabase& database, const std::vector<const ScanEntry
     print_table(rows);
 }
 
-void print_findings(const std::vector<const ScanEntry*>& scans, const CatalogueResult& result, bool notes) {
+void print_findings(const std::vector<const ScanEntry*>& scans, const ScanIndexResult& result, bool notes) {
     for (std::size_t i = 0; i < scans.size(); ++i) {
         const auto& summary = result.summaries[i];
         if (!summary.checked && !summary.error.empty())
@@ -229,17 +229,17 @@ int action_unit_number(const std::string& text) {
 int run(Request& request) {
     for (const auto& text : request.action_units) request.selection.action_units.push_back(action_unit_number(text));
     if (!request.side.empty()) request.selection.side = parse_side(request.side);
-    request.catalogue.use_cache = !request.no_catalogue;
+    request.index.use_cache = !request.no_catalogue;
     check_by_option(
         {{"max_hole_mm", "--max-hole-mm"}, {"spike_mm", "--spike-mm"}, {"landmark_off_scan_mm", "--landmark-off-mm"}},
-        [&] { request.catalogue.doctor.check(); });
+        [&] { request.index.doctor.check(); });
     const auto database = open_database(request.root);
     const auto scans = select(database, request.selection);
-    CatalogueResult result;
+    ScanIndexResult result;
     {
-        Progress progress(request.common, request.catalogue.check ? "checking" : "reading", scans.size());
-        request.catalogue.progress = [&](const ScanEntry& entry) { progress.advance(entry.id.name()); };
-        result = catalogue(database, scans, request.catalogue);
+        Progress progress(request.common, request.index.check ? "checking" : "reading", scans.size());
+        request.index.progress = [&](const ScanEntry& entry) { progress.advance(entry.id.name()); };
+        result = scan_index(database, scans, request.index);
     }
     const auto bad = static_cast<std::size_t>(std::count_if(result.summaries.begin(), result.summaries.end(),
                                                             [](const ScanSummary& s) { return s.has_error(); }));
@@ -259,11 +259,11 @@ int run(Request& request) {
             if (!result.remark.empty()) std::cerr << "catalogue: " << result.remark << '\n';
             for (const auto& remark : database.remarks) std::cerr << remark << '\n';
         }
-        if (request.catalogue.check) std::cout << fmt::format("\n{} of {} scans have errors\n", bad, scans.size());
+        if (request.index.check) std::cout << fmt::format("\n{} of {} scans have errors\n", bad, scans.size());
     }
     const bool unreadable = std::any_of(result.summaries.begin(), result.summaries.end(),
                                         [](const ScanSummary& s) { return !s.error.empty(); });
-    return unreadable || (request.catalogue.check && bad > 0) ? exit_done_with_failures : exit_done;
+    return unreadable || (request.index.check && bad > 0) ? exit_done_with_failures : exit_done;
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.h"
 #include "base/errors.h"
+#include "cli/command.h"
 #include "io/json_values.h"
 #include "synthesis/synthesize.h"
 
@@ -53,12 +53,12 @@ int run_synthesize(const SynthesizeArguments& arguments) {
         const double megabytes = static_cast<double>(estimate.bytes) / 1e6;
         if (arguments.common.json)
             std::cout << io::json_text(nlohmann::json{{"schema", 1},
-                                                            {"dry_run", true},
-                                                            {"scans", estimate.scans},
-                                                            {"bytes", estimate.bytes},
-                                                            {"megabytes", megabytes},
-                                                            {"seconds", seconds},
-                                                            {"skipped_expressions", estimate.skipped_expressions}});
+                                                      {"dry_run", true},
+                                                      {"scans", estimate.scans},
+                                                      {"bytes", estimate.bytes},
+                                                      {"megabytes", megabytes},
+                                                      {"seconds", seconds},
+                                                      {"skipped_expressions", estimate.skipped_expressions}});
         else
             std::cout << fmt::format("{} scans, about {:.0f} MB and {:.0f} s\n", estimate.scans, megabytes, seconds);
         return exit_done;
@@ -78,17 +78,17 @@ int run_synthesize(const SynthesizeArguments& arguments) {
     }
     if (arguments.common.json) {
         std::cout << io::json_text(nlohmann::json{{"schema", 1},
-                                                        {"database", arguments.out},
-                                                        {"face_model", model->name()},
-                                                        {"subjects", report.subjects},
-                                                        {"scans", report.scans},
-                                                        {"valid_points", report.valid_points},
-                                                        {"lost_grazing", report.lost_grazing},
-                                                        {"lost_holes", report.lost_holes},
-                                                        {"landmarks_marked", report.landmarks_marked},
-                                                        {"landmarks_invisible", report.landmarks_invisible},
-                                                        {"bytes", report.bytes},
-                                                        {"skipped_expressions", report.skipped_expressions}});
+                                                  {"database", arguments.out},
+                                                  {"face_model", model->name()},
+                                                  {"subjects", report.subjects},
+                                                  {"scans", report.scans},
+                                                  {"valid_points", report.valid_points},
+                                                  {"lost_grazing", report.lost_grazing},
+                                                  {"lost_holes", report.lost_holes},
+                                                  {"landmarks_marked", report.landmarks_marked},
+                                                  {"landmarks_invisible", report.landmarks_invisible},
+                                                  {"bytes", report.bytes},
+                                                  {"skipped_expressions", report.skipped_expressions}});
         return exit_done;
     }
     for (const auto& expression : report.skipped_expressions)

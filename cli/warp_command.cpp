@@ -19,7 +19,7 @@ struct WarpArguments {
     Common common;
     std::filesystem::path from, to, input, output;
     std::string kernel = "r";
-    io::WarpOptions options;
+    geometry::ThinPlateSplineOptions options;
 };
 
 int run_warp(const WarpArguments& arguments) {
@@ -27,16 +27,16 @@ int run_warp(const WarpArguments& arguments) {
     refuse_range_scan(arguments.input);
     auto options = arguments.options;
     options.kernel = kernel_by_name(arguments.kernel);
-    options.check_texture = [](const std::filesystem::path& image) { database::refuse_hidden_file(image); };
-    const auto report = io::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, options);
+    const auto report = io::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, options,
+                                      [](const std::filesystem::path& image) { database::refuse_hidden_file(image); });
     if (arguments.common.json) {
         std::cout << io::json_text(nlohmann::json{{"schema", 1},
-                                                        {"output", arguments.output.string()},
-                                                        {"landmarks", report.landmarks},
-                                                        {"points", report.points},
-                                                        {"largest_landmark_residual", report.largest_landmark_residual},
-                                                        {"largest_displacement", report.largest_displacement},
-                                                        {"bending_energy", report.bending_energy}});
+                                                  {"output", arguments.output.string()},
+                                                  {"landmarks", report.landmarks},
+                                                  {"points", report.points},
+                                                  {"largest_landmark_residual", report.largest_landmark_residual},
+                                                  {"largest_displacement", report.largest_displacement},
+                                                  {"bending_energy", report.bending_energy}});
     } else if (!arguments.common.quiet) {
         std::cout << fmt::format("{}: {} points moved by up to {:.3f} through {} landmarks (met within {:.2g})\n",
                                  arguments.output.string(), report.points, report.largest_displacement,

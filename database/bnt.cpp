@@ -138,9 +138,7 @@ Bnt decode_bnt(std::span<const std::uint8_t> bytes, const std::string& name) {
     return bnt;
 }
 
-bool is_bnt(const std::filesystem::path& file) {
-    return base::equal_ignoring_case(file.extension().string(), ".bnt");
-}
+bool is_bnt(const std::filesystem::path& file) { return base::equal_ignoring_case(file.extension().string(), ".bnt"); }
 
 // Reads straight into the five columns: no second copy of the file in memory.
 Bnt read_bnt(const std::filesystem::path& file) {
@@ -248,11 +246,9 @@ geometry::RangeScan to_range_scan(const Bnt& bnt, const std::string& name, io::L
     return scan;
 }
 
-geometry::RangeScan read_bnt_scan(const std::filesystem::path& file, io::LengthUnit unit,
-                                  io::BadTexture bad_texture) {
+geometry::RangeScan read_bnt_scan(const std::filesystem::path& file, io::LengthUnit unit, io::BadTexture bad_texture) {
     auto scan = to_range_scan(read_bnt(file), file.string(), unit);
-    if (bad_texture == io::BadTexture::refuse && !scan.texture_error.empty())
-        throw InputError(scan.texture_error);
+    if (bad_texture == io::BadTexture::refuse && !scan.texture_error.empty()) throw InputError(scan.texture_error);
     return scan;
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh_io.h"
 #include "geometry/range_scan.h"
+#include "io/mesh_io.h"
 
 namespace mimik::database {
 

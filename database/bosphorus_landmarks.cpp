@@ -10,11 +10,11 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
-#include "database/scan_id.h"
 #include "base/errors.h"
 #include "base/file.h"
-#include "io/landmark_io.h"
 #include "base/text.h"
+#include "database/scan_id.h"
+#include "io/landmark_io.h"
 
 namespace mimik::database {
 namespace {
@@ -24,37 +24,37 @@ constexpr std::uintmax_t max_file_bytes = 4 << 20;
 struct Label {
     std::string_view label;
     std::string_view stem;  ///< our name, without the side if it has one
-    Side side;              ///< of the label
+    facs::Side side;        ///< of the label
 };
 
 // Bosphorus list in its usual order. "Nose peak" is the nose wing, "nose saddle" the side of the nose root.
 constexpr std::array<Label, 26> labels = {{
-    {"Outer left eyebrow", "brow_outer", Side::left},
-    {"Middle left eyebrow", "brow_middle", Side::left},
-    {"Inner left eyebrow", "brow_inner", Side::left},
-    {"Inner right eyebrow", "brow_inner", Side::right},
-    {"Middle right eyebrow", "brow_middle", Side::right},
-    {"Outer right eyebrow", "brow_outer", Side::right},
-    {"Outer left eye corner", "eye_outer", Side::left},
-    {"Inner left eye corner", "eye_inner", Side::left},
-    {"Inner right eye corner", "eye_inner", Side::right},
-    {"Outer right eye corner", "eye_outer", Side::right},
-    {"Nose saddle left", "nose_saddle", Side::left},
-    {"Nose saddle right", "nose_saddle", Side::right},
-    {"Left nose peak", "nose_wing", Side::left},
-    {"Nose tip", "nose_tip", Side::both},
-    {"Right nose peak", "nose_wing", Side::right},
-    {"Left mouth corner", "mouth_corner", Side::left},
-    {"Upper lip outer middle", "upper_lip_outer", Side::both},
-    {"Right mouth corner", "mouth_corner", Side::right},
-    {"Upper lip inner middle", "upper_lip_inner", Side::both},
-    {"Lower lip inner middle", "lower_lip_inner", Side::both},
-    {"Lower lip outer middle", "lower_lip_outer", Side::both},
-    {"Chin middle", "chin", Side::both},
-    {"Left ear lobe", "ear_lobe", Side::left},
-    {"Right ear lobe", "ear_lobe", Side::right},
-    {"Left temple", "temple", Side::left},
-    {"Right temple", "temple", Side::right},
+    {"Outer left eyebrow", "brow_outer", facs::Side::left},
+    {"Middle left eyebrow", "brow_middle", facs::Side::left},
+    {"Inner left eyebrow", "brow_inner", facs::Side::left},
+    {"Inner right eyebrow", "brow_inner", facs::Side::right},
+    {"Middle right eyebrow", "brow_middle", facs::Side::right},
+    {"Outer right eyebrow", "brow_outer", facs::Side::right},
+    {"Outer left eye corner", "eye_outer", facs::Side::left},
+    {"Inner left eye corner", "eye_inner", facs::Side::left},
+    {"Inner right eye corner", "eye_inner", facs::Side::right},
+    {"Outer right eye corner", "eye_outer", facs::Side::right},
+    {"Nose saddle left", "nose_saddle", facs::Side::left},
+    {"Nose saddle right", "nose_saddle", facs::Side::right},
+    {"Left nose peak", "nose_wing", facs::Side::left},
+    {"Nose tip", "nose_tip", facs::Side::both},
+    {"Right nose peak", "nose_wing", facs::Side::right},
+    {"Left mouth corner", "mouth_corner", facs::Side::left},
+    {"Upper lip outer middle", "upper_lip_outer", facs::Side::both},
+    {"Right mouth corner", "mouth_corner", facs::Side::right},
+    {"Upper lip inner middle", "upper_lip_inner", facs::Side::both},
+    {"Lower lip inner middle", "lower_lip_inner", facs::Side::both},
+    {"Lower lip outer middle", "lower_lip_outer", facs::Side::both},
+    {"Chin middle", "chin", facs::Side::both},
+    {"Left ear lobe", "ear_lobe", facs::Side::left},
+    {"Right ear lobe", "ear_lobe", facs::Side::right},
+    {"Left temple", "temple", facs::Side::left},
+    {"Right temple", "temple", facs::Side::right},
 }};
 
 // Anthropometric points that have a counterpart among the Bosphorus landmarks (Farkas; see docs/formats.md).
@@ -76,27 +76,27 @@ constexpr std::array<AnatomicalName, 8> anatomical_names = {{
 struct NumberedPoint {
     int number;  ///< 0-based
     std::string_view stem;
-    Side side;  ///< image side, as the Bosphorus labels have it
+    facs::Side side;  ///< image side, as the Bosphorus labels have it
 };
 constexpr std::array<NumberedPoint, 18> numbered_points = {{
-    {17, "brow_outer", Side::left},
-    {19, "brow_middle", Side::left},
-    {21, "brow_inner", Side::left},
-    {22, "brow_inner", Side::right},
-    {24, "brow_middle", Side::right},
-    {26, "brow_outer", Side::right},
-    {36, "eye_outer", Side::left},
-    {39, "eye_inner", Side::left},
-    {42, "eye_inner", Side::right},
-    {45, "eye_outer", Side::right},
-    {30, "nose_tip", Side::both},
-    {48, "mouth_corner", Side::left},
-    {54, "mouth_corner", Side::right},
-    {51, "upper_lip_outer", Side::both},
-    {57, "lower_lip_outer", Side::both},
-    {62, "upper_lip_inner", Side::both},
-    {66, "lower_lip_inner", Side::both},
-    {8, "chin", Side::both},
+    {17, "brow_outer", facs::Side::left},
+    {19, "brow_middle", facs::Side::left},
+    {21, "brow_inner", facs::Side::left},
+    {22, "brow_inner", facs::Side::right},
+    {24, "brow_middle", facs::Side::right},
+    {26, "brow_outer", facs::Side::right},
+    {36, "eye_outer", facs::Side::left},
+    {39, "eye_inner", facs::Side::left},
+    {42, "eye_inner", facs::Side::right},
+    {45, "eye_outer", facs::Side::right},
+    {30, "nose_tip", facs::Side::both},
+    {48, "mouth_corner", facs::Side::left},
+    {54, "mouth_corner", facs::Side::right},
+    {51, "upper_lip_outer", facs::Side::both},
+    {57, "lower_lip_outer", facs::Side::both},
+    {62, "upper_lip_inner", facs::Side::both},
+    {66, "lower_lip_inner", facs::Side::both},
+    {8, "chin", facs::Side::both},
 }};
 
 /// Lower case, everything but letters and digits as one '_': "Outer left eyebrow" -> "outer_left_eyebrow".
@@ -115,14 +115,14 @@ std::string as_name(std::string_view label) {
     return name.empty() ? "unnamed" : name;
 }
 
-std::string with_side(std::string_view stem, Side side) {
-    return side == Side::both ? std::string(stem) : fmt::format("{}_{}", stem, to_string(side));
+std::string with_side(std::string_view stem, facs::Side side) {
+    return side == facs::Side::both ? std::string(stem) : fmt::format("{}_{}", stem, to_string(side));
 }
 
 /// A mark whose name may depend on which side its label means.
 struct Recognised {
     std::string_view stem;
-    Side side = Side::both;
+    facs::Side side = facs::Side::both;
     bool side_is_the_labels = false;  ///< else it is the subject's own already
 };
 
@@ -135,21 +135,21 @@ std::optional<Recognised> recognise_bosphorus(const std::string& name) {
     const auto it = std::find(names.begin(), names.end(), name);
     if (it == names.end()) return std::nullopt;
     const auto& label = labels[static_cast<std::size_t>(it - names.begin())];
-    return Recognised{label.stem, label.side, label.side != Side::both};
+    return Recognised{label.stem, label.side, label.side != facs::Side::both};
 }
 
 std::optional<Recognised> recognise_anatomical(std::string_view name) {
-    Side side = Side::both;
-    for (const auto& [suffix, meaning] : {std::pair<std::string_view, Side>{"_left", Side::left},
-                                          {"_right", Side::right},
-                                          {"_l", Side::left},
-                                          {"_r", Side::right}})
-        if (side == Side::both && name.ends_with(suffix)) {
+    facs::Side side = facs::Side::both;
+    for (const auto& [suffix, meaning] : {std::pair<std::string_view, facs::Side>{"_left", facs::Side::left},
+                                          {"_right", facs::Side::right},
+                                          {"_l", facs::Side::left},
+                                          {"_r", facs::Side::right}})
+        if (side == facs::Side::both && name.ends_with(suffix)) {
             side = meaning;
             name.remove_suffix(suffix.size());
         }
     for (const auto& known : anatomical_names)
-        if ((name == known.name || name == known.abbreviation) && known.paired == (side != Side::both))
+        if ((name == known.name || name == known.abbreviation) && known.paired == (side != facs::Side::both))
             return Recognised{known.stem, side, false};
     return std::nullopt;
 }
@@ -195,15 +195,15 @@ geometry::Landmarks renamed(const geometry::Landmarks& raw, const std::vector<st
     };
     std::vector<Pair> pairs;
     const auto marks = raw.all();
-    const auto has_side = [&](std::size_t i, Side side) {
+    const auto has_side = [&](std::size_t i, facs::Side side) {
         return recognised[i] && recognised[i]->side_is_the_labels && recognised[i]->side == side;
     };
     // One partner each: a label in many spellings is refused below, but not each paired with each before.
     std::map<std::string_view, std::size_t> right;
     for (std::size_t i = 0; i < marks.size(); ++i)
-        if (has_side(i, Side::right)) right.emplace(recognised[i]->stem, i);
+        if (has_side(i, facs::Side::right)) right.emplace(recognised[i]->stem, i);
     for (std::size_t i = 0; i < marks.size(); ++i) {
-        if (!has_side(i, Side::left)) continue;
+        if (!has_side(i, facs::Side::left)) continue;
         if (const auto partner = right.find(recognised[i]->stem); partner != right.end())
             pairs.push_back({recognised[i]->stem, marks[i].position_mm.x() < marks[partner->second].position_mm.x()});
     }
@@ -233,7 +233,7 @@ geometry::Landmarks renamed(const geometry::Landmarks& raw, const std::vector<st
         if (recognised[i]) {
             const auto& known = *recognised[i];
             const bool mirror = known.side_is_the_labels && sides.left_label_is_subject_right;
-            mark.name = with_side(known.stem, mirror ? opposite(known.side) : known.side);
+            mark.name = with_side(known.stem, mirror ? facs::opposite(known.side) : known.side);
         } else {
             mark.name = as_name(mark.original_label);
         }
@@ -296,8 +296,7 @@ std::vector<ImageLandmark> parse_lm2(std::string_view text, const std::string& n
     for (auto& mark : marks) {
         next(fmt::format("the position of {}", base::in_quotes(mark.label)));
         std::string_view rest = lines.line();
-        const auto x = base::parse_double(base::next_word(rest)),
-                   y = base::parse_double(base::next_word(rest));
+        const auto x = base::parse_double(base::next_word(rest)), y = base::parse_double(base::next_word(rest));
         if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y) || !base::trimmed(rest).empty())
             lines.fail(fmt::format("{} stands where x y of landmark {} are expected; mark it again",
                                    base::in_quotes(lines.line()), base::in_quotes(mark.label)));
@@ -305,8 +304,8 @@ std::vector<ImageLandmark> parse_lm2(std::string_view text, const std::string& n
         mark.row = *y;
     }
     if (lines.next_not_blank())
-        lines.fail(fmt::format("{} follows after all {} landmarks; correct the count",
-                               base::in_quotes(lines.line()), count));
+        lines.fail(
+            fmt::format("{} follows after all {} landmarks; correct the count", base::in_quotes(lines.line()), count));
     return marks;
 }
 
@@ -338,7 +337,7 @@ geometry::Landmarks from_any_labels(const geometry::Landmarks& raw, SideReport* 
                                          [&](const NumberedPoint& p) { return p.number == number; });
             recognised.push_back(it == numbered_points.end()
                                      ? std::nullopt
-                                     : std::optional(Recognised{it->stem, it->side, it->side != Side::both}));
+                                     : std::optional(Recognised{it->stem, it->side, it->side != facs::Side::both}));
         }
     } else {
         // "nose_saddle_left" is our name and, but for its spelling, the Bosphorus label of the other side: it is ours
@@ -364,7 +363,7 @@ geometry::Landmarks to_bosphorus_labels(const geometry::Landmarks& landmarks) {
     std::vector<std::string> taken;
     for (const auto& label : labels) {
         // A label's left is image-left: the subject's right.
-        const std::string name = with_side(label.stem, opposite(label.side));
+        const std::string name = with_side(label.stem, facs::opposite(label.side));
         if (const auto* mark = landmarks.find(name)) {
             marks.push_back({std::string(label.label), mark->position_mm, std::string(label.label)});
             taken.push_back(name);

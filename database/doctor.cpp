@@ -11,8 +11,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "database/bnt.h"
 #include "base/errors.h"
+#include "database/bnt.h"
+#include "geometry/face_axes.h"
 #include "io/json_values.h"
 #include "io/landmark_io.h"
 
@@ -111,12 +112,12 @@ void check_unit(const LoadedScan& loaded, const DoctorOptions& options, Report& 
     });
     const double slack = scan_alone ? 2 : 1;  // a box is no measure of a face
     if (ratio * unit->mm < options.min_size_ratio / slack || ratio * unit->mm > options.max_size_ratio * slack)
-        return report.add(Severity::error, "unit", what,
-                          fmt::format("convert {} to {}, and check the landmarks", coordinates,
-                                      loaded.entry.unit == io::LengthUnit::millimetre
-                                          ? "millimetres"
-                                          : "the unit that manifest.csv gives them"),
-                          where);
+        return report.add(
+            Severity::error, "unit", what,
+            fmt::format("convert {} to {}, and check the landmarks", coordinates,
+                        loaded.entry.unit == io::LengthUnit::millimetre ? "millimetres"
+                                                                        : "the unit that manifest.csv gives them"),
+            where);
     // The table has one unit for both files.
     const bool in_table = !apart && loaded.entry.layout == DatabaseLayout::manifest && unit->of_manifest != nullptr;
     report.add(
@@ -169,7 +170,7 @@ void check_axis(const AxisWitnesses& by, const AxisWords& words, Report& report)
 
 void check_frame(const LoadedScan& loaded, Report& report) {
     const auto& found = loaded.checks.correlations;
-    const auto axes = head_axes(loaded.landmarks);
+    const auto axes = geometry::head_axes(loaded.landmarks);
     AxisWitnesses x{found.x_u, found.x_column, {}}, y{found.y_v, found.y_row, {}};
     // Names may follow from where the points lie (Bosphorus labels do): that left is at +x proves nothing.
     if (axes && axes->lateral.x() < -0.3) x.head_mirrored = true;
@@ -227,14 +228,14 @@ void check_sides(const LoadedScan& loaded, const Landmarks* neutral, Report& rep
                    "exchange the two labels in the landmark file", loaded.entry.landmarks_file.string());
     if (!neutral || !side_shows_at_mouth(loaded.entry.id)) return;
     const auto decision = decide_side(*neutral, loaded.landmarks);
-    if (decision.side == opposite(loaded.entry.id.side()))
-        report.add(
-            Severity::error, "one-sided",
-            fmt::format(
-                "is taken as the subject's {} side, but the {} mouth corner moves ({:.1f} mm against {:.1f} mm)",
-                to_string(loaded.entry.id.side()), to_string(decision.side),
-                std::max(decision.left_mm, decision.right_mm), std::min(decision.left_mm, decision.right_mm)),
-            fmt::format("rename the scan to {}, or check its mouth corners", loaded.entry.id.mirrored().expression()));
+    if (decision.side == facs::opposite(loaded.entry.id.side()))
+        report.add(Severity::error, "one-sided",
+                   fmt::format(
+                       "is taken as the subject's {} side, but the {} mouth corner moves ({:.1f} mm against {:.1f} mm)",
+                       to_string(loaded.entry.id.side()), to_string(decision.side),
+                       std::max(decision.left_mm, decision.right_mm), std::min(decision.left_mm, decision.right_mm)),
+                   fmt::format("rename the scan to {}, or check its mouth corners",
+                               loaded.entry.id.mirrored().group_and_code()));
 }
 
 void check_landmarks_present(const LoadedScan& loaded, Report& report) {
@@ -263,7 +264,7 @@ void check_landmarks_present(const LoadedScan& loaded, Report& report) {
 
 /// Landmarks whose order along the head's own axes is anatomy, not expression.
 void check_landmark_order(const LoadedScan& loaded, const DoctorOptions& options, Report& report) {
-    const auto axes = head_axes(loaded.landmarks);
+    const auto axes = geometry::head_axes(loaded.landmarks);
     if (!axes || posed_or_covered(loaded.entry.id)) return;
     const auto check = [&](const std::string& greater, const std::string& less, const Vector& axis,
                            const char* relation) {
@@ -402,34 +403,6 @@ void check_texture(const LoadedScan& loaded, Report& report) {
 }
 
 }  // namespace
-
-std::optional<HeadAxes> head_axes(const Landmarks& marks) {
-    const auto mean = [&](std::initializer_list<std::string_view> names) -> std::optional<Point> {
-        Point sum = Point::Zero();
-        for (const auto name : names) {
-            const auto* mark = marks.find(name);
-            if (!mark) return std::nullopt;
-            sum += mark->position_mm;
-        }
-        return sum / static_cast<double>(names.size());
-    };
-    const auto eyes = mean({"eye_outer_left", "eye_outer_right", "eye_inner_left", "eye_inner_right"});
-    const auto mouth = mean({"mouth_corner_left", "mouth_corner_right"});
-    const auto nose = mean({"nose_tip"});
-    const auto left = mean({"eye_outer_left", "eye_inner_left", "mouth_corner_left"});
-    const auto right = mean({"eye_outer_right", "eye_inner_right", "mouth_corner_right"});
-    if (!eyes || !mouth || !nose || !left || !right) return std::nullopt;
-    HeadAxes axes;
-    axes.lateral = (*left - *right).normalized();
-    axes.up = *eyes - *mouth;
-    axes.up = (axes.up - axes.lateral * axes.lateral.dot(axes.up)).normalized();
-    // The nose tip stands before the plane of eyes and mouth corners whatever the names are.
-    Vector out = *nose - (*eyes + *mouth) / 2;
-    out -= axes.lateral * axes.lateral.dot(out);
-    axes.out = (out - axes.up * axes.up.dot(out)).normalized();
-    if (!axes.lateral.allFinite() || !axes.up.allFinite() || !axes.out.allFinite()) return std::nullopt;
-    return axes;
-}
 
 std::string to_string(Severity severity) {
     return severity == Severity::note ? "note" : severity == Severity::warning ? "warning" : "error";

@@ -52,13 +52,6 @@ struct DoctorOptions {
 /// The landmarks of a scan under our names; empty if it cannot be loaded (checking that scan says why).
 [[nodiscard]] std::optional<geometry::Landmarks> landmarks_of(const ScanEntry& entry);
 
-/// Axes of the head from its landmarks: lateral (to the subject's left), up, out of the face. Empty if eye corners,
-/// mouth corners or nose tip are missing.
-struct HeadAxes {
-    geometry::Vector lateral, up, out;
-};
-[[nodiscard]] std::optional<HeadAxes> head_axes(const geometry::Landmarks& landmarks);
-
 /// Holes of a scan: what is not measured but surrounded by what is.
 struct HoleReport {
     bool judged = false;  ///< false for a bare cloud

@@ -17,7 +17,7 @@ constexpr std::size_t max_remarks = 20;
 std::optional<FacsScore> parse_code(std::string_view code) {
     FacsScore score;
     if (code.starts_with('L') || code.starts_with('R')) {
-        score.side = code.front() == 'L' ? Side::left : Side::right;
+        score.side = code.front() == 'L' ? facs::Side::left : facs::Side::right;
         code.remove_prefix(1);
     }
     const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), score.action_unit);

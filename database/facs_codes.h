@@ -12,7 +12,7 @@ namespace mimik::database {
 /// One expert FACS score: action unit, side (the subject's own, as FACS has it) and intensity.
 struct FacsScore {
     int action_unit = 0;
-    Side side = Side::both;
+    facs::Side side = facs::Side::both;
     char intensity = 0;  ///< 'A' (trace) to 'E' (maximum); 0 where not scored
 
     bool operator==(const FacsScore&) const = default;

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "database/manifest.h"
-#include "database/scan_id.h"
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "database/manifest.h"
+#include "database/scan_id.h"
 
 namespace mimik::database {
 namespace {
@@ -198,10 +198,9 @@ std::vector<fs::path> places_of(const fs::path& path) {
 void refuse_hidden_at(const fs::path& file) {
     for (const auto& list : lists_up_from(file.parent_path(), 4)) {
         const auto subjects = possible_subjects(file, list.file.parent_path());
-        const auto hidden =
-            ListReader(base::read_text(list.file, most_hidden_list_bytes), list.file.string(), subjects)
-                .read()
-                .subjects;
+        const auto hidden = ListReader(base::read_text(list.file, most_hidden_list_bytes), list.file.string(), subjects)
+                                .read()
+                                .subjects;
         for (const auto& subject : subjects)
             if (is_hidden(hidden, subject))
                 throw InputError(fmt::format("{}: subject '{}' stands in {} and must not be shown; choose another",

@@ -40,11 +40,9 @@ std::string subject_name(const base::CsvReader& rows, const std::string& value) 
         name += plain ? c : '-';
     }
     if (!base::is_utf8(name))
-        rows.fail(
-            fmt::format("subject {} is not written in UTF-8; save the table as UTF-8", base::in_quotes(value)));
+        rows.fail(fmt::format("subject {} is not written in UTF-8; save the table as UTF-8", base::in_quotes(value)));
     if (name.empty() || name.size() > 100 || name.front() == '.')
-        rows.fail(
-            fmt::format("subject {} is no name; give 1 to 100 letters, digits or '-'", base::in_quotes(value)));
+        rows.fail(fmt::format("subject {} is no name; give 1 to 100 letters, digits or '-'", base::in_quotes(value)));
     return name;
 }
 
@@ -56,12 +54,12 @@ public:
         if (expression.code.find('-') == std::string::npos) return;
         std::string letters = base::lower_case(text);  // however the words are separated
         std::erase_if(letters, [](char c) { return c == ' ' || c == '\t' || c == '_' || c == '-'; });
-        const auto [first, is_new] = first_.try_emplace(expression.expression(), text);
-        if (!seen_.emplace(expression.expression(), std::move(letters)).second || is_new) return;
+        const auto [first, is_new] = first_.try_emplace(expression.group_and_code(), text);
+        if (!seen_.emplace(expression.group_and_code(), std::move(letters)).second || is_new) return;
         remarks.push_back(
             fmt::format("{}: expressions {} and {} are both called {} and count as one; use other letters or digits if "
                         "they are two",
-                        file, base::in_quotes(first->second), base::in_quotes(text), expression.expression()));
+                        file, base::in_quotes(first->second), base::in_quotes(text), expression.group_and_code()));
     }
 
 private:
@@ -93,22 +91,21 @@ Manifest parse_manifest(std::string_view text, const fs::path& file) {
         if (manifest.scans.size() == max_scans)
             rows.fail(fmt::format("more than {} scans; split the database", max_scans));
         ScanEntry entry;
-        const auto id = parse_expression(rows.field(expression));
-        if (!id) rows.fail("expression is empty; give N, AU12, 12L, HAPPY or the like");
-        if (id->code.size() > 100)
+        const auto shown = facs::parse_expression(rows.field(expression));
+        if (!shown) rows.fail("expression is empty; give N, AU12, 12L, HAPPY or the like");
+        if (shown->code().size() > 100)
             rows.fail(
                 fmt::format("expression {} becomes part of file names; give at most 100 bytes of letters and digits",
                             base::in_quotes(rows.field(expression))));
-        entry.id = *id;
-        entry.id.subject = subject_name(rows, rows.field(subject));
+        entry.id = {subject_name(rows, rows.field(subject)), shown->group(), shown->code(), 0};
         if (entry.id.subject != rows.field(subject))
             manifest.remarks.push_back(fmt::format("{}: subject {} is called '{}'", file.string(),
                                                    base::in_quotes(rows.field(subject)), entry.id.subject));
         if (entry.id.group == "OTHER")
             manifest.remarks.push_back(fmt::format("{}: expression {} is none that Mimik knows; it is kept as {}",
                                                    file.string(), base::in_quotes(rows.field(expression)),
-                                                   entry.id.expression()));
-        spellings.add(*id, rows.field(expression), file.string(), manifest.remarks);
+                                                   entry.id.group_and_code()));
+        spellings.add(entry.id, rows.field(expression), file.string(), manifest.remarks);
         if (rows.field(scan).empty()) rows.fail("scan is empty; name the file");
         entry.scan_file = inside(rows, rows.field(scan), folder, "scan");
         entry.file_name_stem = entry.scan_file.stem().string();

@@ -19,7 +19,7 @@ void SideDecisionOptions::check() const {
 }
 
 bool side_shows_at_mouth(const ScanId& id) {
-    return id.side() != Side::both && base::equal_ignoring_case(id.group, "LFAU");
+    return id.side() != facs::Side::both && base::equal_ignoring_case(id.group, "LFAU");
 }
 
 SideDecision decide_side(const geometry::Landmarks& neutral, const geometry::Landmarks& expression,
@@ -49,7 +49,7 @@ SideDecision decide_side(const geometry::Landmarks& neutral, const geometry::Lan
     decision.right_mm = (neutral_from_expression * corners[3]->position_mm - corners[1]->position_mm).norm();
     const auto [less, more] = std::minmax(decision.left_mm, decision.right_mm);
     if (more - less >= options.min_difference_mm && more >= options.min_ratio * less)
-        decision.side = decision.left_mm > decision.right_mm ? Side::left : Side::right;
+        decision.side = decision.left_mm > decision.right_mm ? facs::Side::left : facs::Side::right;
     return decision;
 }
 

@@ -14,8 +14,8 @@ struct SideDecisionOptions {
 
 /// Which mouth corner moved, with the evidence.
 struct SideDecision {
-    Side side = Side::both;  ///< both: undecided
-    double left_mm = 0;      ///< how far the subject's own left mouth corner moved
+    facs::Side side = facs::Side::both;  ///< both: undecided
+    double left_mm = 0;                  ///< how far the subject's own left mouth corner moved
     double right_mm = 0;
     int stable_landmarks = 0;  ///< eye corners and nose that carried one scan on to the other; fewer than 4: undecided
 };

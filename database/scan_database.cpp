@@ -10,15 +10,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "database/bnt.h"
-#include "database/hidden_subjects.h"
-#include "database/manifest.h"
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/text.h"
+#include "database/bnt.h"
+#include "database/hidden_subjects.h"
+#include "database/manifest.h"
 #include "io/landmark_io.h"
 #include "io/range_scan_io.h"
-#include "base/text.h"
 
 namespace mimik::database {
 namespace {
@@ -176,7 +176,8 @@ void decide_code_sides(ScanDatabase& database) {
     auto& sides = database.code_sides;
     std::map<std::string, std::optional<geometry::Landmarks>> neutrals;  // by subject, in lower case
     std::set<std::string> other_subjects;
-    std::map<std::pair<std::string, std::optional<int>>, std::set<Side>> contradicted;  // by subject and action unit
+    std::map<std::pair<std::string, std::optional<int>>, std::set<facs::Side>>
+        contradicted;  // by subject and action unit
     for (const auto& entry : database.scans) {
         if (!side_shows_at_mouth(entry.id)) continue;
         const auto subject = lower_case(entry.id.subject);
@@ -185,9 +186,9 @@ void decide_code_sides(ScanDatabase& database) {
             for (const auto* neutral : database.neutrals(entry.id.subject))
                 if (!it->second) it->second = landmarks_if_readable(*neutral);
         const auto expression = it->second ? landmarks_if_readable(entry) : std::nullopt;
-        const Side moved = expression ? decide_side(*it->second, *expression).side : Side::both;
-        ++(moved == Side::both ? sides.undecided : moved == entry.id.side() ? sides.own_side : sides.other_side);
-        if (moved == opposite(entry.id.side())) {
+        const facs::Side moved = expression ? decide_side(*it->second, *expression).side : facs::Side::both;
+        ++(moved == facs::Side::both ? sides.undecided : moved == entry.id.side() ? sides.own_side : sides.other_side);
+        if (moved == facs::opposite(entry.id.side())) {
             other_subjects.insert(subject);
             contradicted[{subject, entry.id.action_unit()}].insert(entry.id.side());
         }

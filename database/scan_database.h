@@ -11,10 +11,10 @@
 #include "database/one_sided_codes.h"
 #include "database/scan_id.h"
 #include "database/self_checks.h"
-#include "io/image.h"
 #include "geometry/landmarks.h"
-#include "io/mesh_io.h"
 #include "geometry/range_scan.h"
+#include "io/image.h"
+#include "io/mesh_io.h"
 
 namespace mimik::database {
 
@@ -71,7 +71,7 @@ struct Selection {
     std::vector<std::string> subjects = {};  ///< case ignored
     std::vector<std::string> groups = {};    ///< "LFAU"; case ignored
     std::vector<int> action_units = {};
-    std::optional<Side> side = {};                   ///< the subject's own; both = two-sided scans only
+    std::optional<facs::Side> side = {};             ///< the subject's own; both = two-sided scans only
     void check(const ScanDatabase& database) const;  ///< throws InputError naming a subject or group that is not there
 };
 [[nodiscard]] std::vector<const ScanEntry*> select(const ScanDatabase& database, const Selection& selection);

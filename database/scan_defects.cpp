@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include "database/doctor.h"
+#include "geometry/face_axes.h"
 #include "geometry/point_index.h"
 
 namespace mimik::database {
@@ -42,14 +43,14 @@ void add_hole(HoleReport& report, std::vector<geometry::Point> rim) {
 /// synthetic scanner (lids, brows, nostrils, lips and their shades) lie inside and a cheek or a forehead does not.
 class OrdinaryPlaces {
 public:
-    explicit OrdinaryPlaces(const geometry::Landmarks& marks) : axes_(head_axes(marks)) {
+    explicit OrdinaryPlaces(const geometry::Landmarks& marks) : axes_(geometry::head_axes(marks)) {
         const auto* chin = marks.find("chin");
         if (!axes_ || !chin) {
             axes_.reset();
             return;
         }
         chin_mm_ = axes_->up.dot(chin->position_mm);
-        const double eyes_mm = (marks.position_mm("eye_outer_left") - marks.position_mm("eye_outer_right")).norm();
+        const double eyes_mm = geometry::outer_eye_distance_mm(marks);
         const auto add = [&](const std::string& a, const std::string& b, double beyond, double beside) {
             const auto *from = marks.find(a), *to = marks.find(b);
             if (from && to)
@@ -86,7 +87,7 @@ private:
         return {axes_->lateral.dot(p), axes_->up.dot(p)};
     }
 
-    std::optional<HeadAxes> axes_;
+    std::optional<geometry::HeadAxes> axes_;
     double chin_mm_ = 0;
     std::vector<Stripe> stripes_;
 };

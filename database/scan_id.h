@@ -5,13 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "facs/expression.h"
+
 namespace mimik::database {
-
-enum class Side { both, left, right };  ///< the subject's own
-
-[[nodiscard]] std::string to_string(Side side);        ///< "both", "left", "right"
-[[nodiscard]] Side parse_side(std::string_view text);  ///< the same words, or "l", "r"; throws InputError
-[[nodiscard]] Side opposite(Side side);
 
 /// Name of one scan: bs000_LFAU_12L_0 = subject "bs000", group "LFAU", code "12L", repetition 0.
 /// Unknown groups and codes are kept as they are; all fields compare without regard to case.
@@ -21,12 +17,13 @@ struct ScanId {
     std::string code;
     int repetition = 0;
 
-    [[nodiscard]] std::string name() const;        ///< "bs000_LFAU_12L_0"
-    [[nodiscard]] std::string expression() const;  ///< "LFAU_12L"
-    [[nodiscard]] bool neutral() const;            ///< group "N"
+    [[nodiscard]] std::string name() const;  ///< "bs000_LFAU_12L_0"
+    [[nodiscard]] facs::Expression expression() const;
+    [[nodiscard]] std::string group_and_code() const;  ///< "LFAU_12L"
+    [[nodiscard]] bool neutral() const;                ///< group "N"
     /// Code in upper case without side or intensity: "12L" -> 12; "A12A15" and emotions -> empty.
     [[nodiscard]] std::optional<int> action_unit() const;
-    [[nodiscard]] Side side() const;           ///< from a trailing L or R of an AU code; else both
+    [[nodiscard]] facs::Side side() const;     ///< from a trailing L or R of an AU code; else both
     [[nodiscard]] bool low_intensity() const;  ///< a trailing LW
     [[nodiscard]] ScanId mirrored() const;     ///< 12L <-> 12R; others unchanged
 
@@ -40,14 +37,5 @@ struct ScanId {
 [[nodiscard]] std::optional<ScanId> parse_scan_name(std::string_view stem);
 /// The same. @throws InputError showing the name that is none.
 [[nodiscard]] ScanId scan_id_from(std::string_view stem);
-
-/// Group and code (subject and repetition left empty) from what people write for an expression: "N", "neutral",
-/// "LFAU_12", "AU12", "AU012", "au12_L", "12L", "12LW", "AU22+AU25", "A22A25", "HAPPY". What is none of these is kept
-/// in group "OTHER": ASCII letters in upper case, characters that names of scans cannot have, and bytes that are no
-/// UTF-8, as '-'. Empty if nothing is left of it.
-[[nodiscard]] std::optional<ScanId> parse_expression(std::string_view text);
-
-/// "UFAU" for upper-face AUs (1, 2, 4, 5, 6, 7, 41 to 46), "LFAU" for the rest.
-[[nodiscard]] std::string group_of_action_unit(int action_unit);
 
 }  // namespace mimik::database

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "geometry/landmark_spline.h"
 #include "geometry/surface_index.h"
 #include "modeling/control_points.h"
-#include "preprocessing/control_pairs.h"
 #include "preprocessing/nearest_on_average.h"
 
 namespace mimik::evaluation {
@@ -28,12 +28,12 @@ std::vector<Point> average_vertices_on(const AverageFace& average, const Face& f
     std::vector<Point> vertices;
     for (std::size_t v = 0; v < average.grid.size(); ++v)
         vertices.push_back(average.grid.inside(v) ? average.grid.vertices_mm[v] : Point(Point::Zero()));
-    preprocessing::landmark_spline(average.landmarks, face.landmarks).apply(vertices, vertices);
+    geometry::landmark_spline(average.landmarks, face.landmarks).apply(vertices, vertices);
     return vertices;
 }
 
 std::vector<Vector> true_motion_on_average(const AverageFace& average, const Face& neutral,
-                                           const synthesis::TrueScan& true_neutral,
+                                           const database::TrueScan& true_neutral,
                                            std::span<const Vector> true_field_mm) {
     const geometry::SurfaceIndex surface(true_neutral.vertices_mm, geometry::triangulate(true_neutral.faces));
     const auto triangles = surface.triangles();
@@ -74,8 +74,8 @@ ActiveZone TrueZone::zone(const std::string& expression, double share) const {
 }
 
 ActiveZone active_zone_from_catalogue(const std::string& expression, const AverageFace& average,
-                                      const modeling::FacsCatalogue& catalogue) {
-    const modeling::ExpressionZone drawn(catalogue, expression, average.landmarks);
+                                      const facs::FacsCatalogue& catalogue) {
+    const facs::ExpressionZone drawn(catalogue, expression, average.landmarks);
     ActiveZone zone;
     zone.expression = expression;
     for (std::size_t v = 0; v < average.grid.size(); ++v)

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "database/truth.h"
+#include "facs/facs_catalogue.h"
 #include "geometry/types.h"
-#include "modeling/facs_catalogue.h"
 #include "preprocessing/average_face.h"
 #include "preprocessing/face.h"
-#include "synthesis/truth.h"
 
 namespace mimik::evaluation {
 
@@ -23,7 +23,7 @@ struct ActiveZone {
 /// @param true_field_mm  of the true surface's vertices, head frame, from the neutral scan.
 [[nodiscard]] std::vector<geometry::Vector> true_motion_on_average(const preprocessing::AverageFace& average,
                                                                    const preprocessing::Face& neutral,
-                                                                   const synthesis::TrueScan& true_neutral,
+                                                                   const database::TrueScan& true_neutral,
                                                                    std::span<const geometry::Vector> true_field_mm);
 
 /// The zone from a truth, subject after subject: active where the length of their mean true motion exceeds a share of
@@ -45,7 +45,7 @@ private:
 /// The same region as the catalogue draws it, for databases without a truth.
 [[nodiscard]] ActiveZone active_zone_from_catalogue(const std::string& expression,
                                                     const preprocessing::AverageFace& average,
-                                                    const modeling::FacsCatalogue& catalogue);
+                                                    const facs::FacsCatalogue& catalogue);
 
 /// Adds what is active in the other zone. The displacement stays the first one's own.
 void unite(ActiveZone& zone, const ActiveZone& other);

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/errors.h"
+#include "base/parallel.h"
 #include "evaluation/expression_cast.h"
 #include "evaluation/performance.h"
 #include "evaluation/target_cases.h"
-#include "base/errors.h"
-#include "base/parallel.h"
 
 namespace mimik::evaluation {
 
@@ -53,7 +53,7 @@ void ExperimentOptions::check() const {
     }
 }
 
-void check_experiment(const Workspace& workspace, const modeling::FacsCatalogue& catalogue,
+void check_experiment(const Workspace& workspace, const facs::FacsCatalogue& catalogue,
                       const ExperimentOptions& options) {
     options.check();
     const auto subjects = shown_subjects(workspace);
@@ -98,8 +98,8 @@ namespace {
 /// One run: what its expressions share, and the report that they fill.
 class ExperimentRun {
 public:
-    ExperimentRun(const Workspace& workspace, const modeling::FacsCatalogue& catalogue,
-                  const ExperimentOptions& options, const std::function<void(const std::string&)>& progress)
+    ExperimentRun(const Workspace& workspace, const facs::FacsCatalogue& catalogue, const ExperimentOptions& options,
+                  const std::function<void(const std::string&)>& progress)
         : workspace_(workspace), catalogue_(catalogue), options_(options), progress_(progress), reader_(workspace) {
         report_.subjects = shown_subjects(workspace);
         report_.expressions = options.expressions;
@@ -189,7 +189,7 @@ private:
     }
 
     const Workspace& workspace_;
-    const modeling::FacsCatalogue& catalogue_;
+    const facs::FacsCatalogue& catalogue_;
     const ExperimentOptions& options_;
     const std::function<void(const std::string&)>& progress_;
     PerformanceReader reader_;
@@ -200,7 +200,7 @@ private:
 
 }  // namespace
 
-ExperimentReport run_experiment(const Workspace& workspace, const modeling::FacsCatalogue& catalogue,
+ExperimentReport run_experiment(const Workspace& workspace, const facs::FacsCatalogue& catalogue,
                                 const ExperimentOptions& options,
                                 const std::function<void(const std::string&)>& progress) {
     check_experiment(workspace, catalogue, options);

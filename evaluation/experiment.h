@@ -9,7 +9,7 @@
 #include "evaluation/case_score.h"
 #include "evaluation/method.h"
 #include "evaluation/performance.h"
-#include "modeling/facs_catalogue.h"
+#include "facs/facs_catalogue.h"
 #include "preprocessing/workspace.h"
 
 namespace mimik::evaluation {
@@ -56,13 +56,13 @@ struct ExperimentReport {
 /// expression grow with the subjects, by some 50 kB each, and so do the cases of the targets under way, by 100 bytes
 /// per source and row. @throws InputError if fewer than 3 subjects show an expression.
 [[nodiscard]] ExperimentReport run_experiment(const preprocessing::Workspace& workspace,
-                                              const modeling::FacsCatalogue& catalogue,
+                                              const facs::FacsCatalogue& catalogue,
                                               const ExperimentOptions& options = {},
                                               const std::function<void(const std::string&)>& progress = {});
 
 /// What run_experiment finds out before any work. @throws InputError for bad options, an expression that the catalogue
 /// lacks or that fewer than 3 subjects show, or a truth that is gone.
-void check_experiment(const preprocessing::Workspace& workspace, const modeling::FacsCatalogue& catalogue,
+void check_experiment(const preprocessing::Workspace& workspace, const facs::FacsCatalogue& catalogue,
                       const ExperimentOptions& options);
 
 /// What run_experiment would do: transfers (true fields included) and seconds on one core, from figures measured once.

@@ -58,7 +58,7 @@ std::vector<Vector> true_motion(const PerformanceReader& reader, const Performan
 }
 
 /// Of one AU of an expression that `performances` show.
-ActiveZone zone_of_unit(const PerformanceReader& reader, const modeling::FacsCatalogue& catalogue,
+ActiveZone zone_of_unit(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
                         const std::string& expression, const std::string& unit, std::span<const ScanId> performances,
                         FailureList& failures) {
     std::vector<ScanId> scans;
@@ -84,12 +84,12 @@ ActiveZone zone_of_unit(const PerformanceReader& reader, const modeling::FacsCat
     return any ? zone.zone(unit) : active_zone_from_catalogue(unit, reader.workspace().average(), catalogue);
 }
 
-void add_zones_of_units(ActiveZone& zone, const PerformanceReader& reader, const modeling::FacsCatalogue& catalogue,
+void add_zones_of_units(ActiveZone& zone, const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
                         std::span<const ScanId> performances, FailureList& failures) {
     const auto units = catalogue.resolve(zone.expression);
     if (units.size() < 2) return;
     for (const auto& [unit, side] : units) {
-        const char* of_side = side == database::Side::both ? "" : side == database::Side::left ? "L" : "R";
+        const char* of_side = side == facs::Side::both ? "" : side == facs::Side::left ? "L" : "R";
         unite(zone, zone_of_unit(reader, catalogue, zone.expression, fmt::format("{}{}", unit->number, of_side),
                                  performances, failures));
     }
@@ -103,7 +103,7 @@ struct Taken {
 
 class Gathering {
 public:
-    Gathering(const PerformanceReader& reader, const modeling::FacsCatalogue& catalogue, const std::string& expression,
+    Gathering(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue, const std::string& expression,
               std::span<const Method> methods, FailureList& failures)
         : reader_(reader), expression_(expression), methods_(methods), failures_(failures) {
         const auto shared = models_shared_by(methods);
@@ -150,7 +150,7 @@ private:
 
 }  // namespace
 
-ExpressionCast gather_cast(const PerformanceReader& reader, const modeling::FacsCatalogue& catalogue,
+ExpressionCast gather_cast(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
                            const std::string& expression, std::span<const ScanId> performances,
                            std::span<const Method> methods, bool keep_true_fields, FailureList& failures) {
     const auto& average = reader.workspace().average();

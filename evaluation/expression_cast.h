@@ -11,8 +11,8 @@
 #include "evaluation/active_zone.h"
 #include "evaluation/method.h"
 #include "evaluation/performance.h"
+#include "facs/facs_catalogue.h"
 #include "modeling/expression_model.h"
-#include "modeling/facs_catalogue.h"
 
 namespace mimik::evaluation {
 
@@ -56,7 +56,7 @@ struct ExpressionCast {
 /// (an emotion) has the union of its own zone and of its AUs': of each the true one over the same subjects' scans of
 /// that AU alone, or the one that the catalogue draws where nobody shows it. Who cannot be read takes no part, who
 /// cannot be measured is no source of that method; both are added to `failures`.
-[[nodiscard]] ExpressionCast gather_cast(const PerformanceReader& reader, const modeling::FacsCatalogue& catalogue,
+[[nodiscard]] ExpressionCast gather_cast(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
                                          const std::string& expression, std::span<const database::ScanId> performances,
                                          std::span<const Method> methods, bool keep_true_fields, FailureList& failures);
 

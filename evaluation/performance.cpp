@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
-#include "preprocessing/control_pairs.h"
+#include "geometry/landmark_spline.h"
 
 namespace mimik::evaluation {
 
@@ -15,7 +15,7 @@ using database::ScanId;
 PerformanceReader::PerformanceReader(const preprocessing::Workspace& workspace) : workspace_(workspace) {
     const auto file = workspace.database_root() / "truth" / "truth.json";
     if (std::filesystem::exists(file))
-        truth_ = synthesis::open_truth(workspace.database_root());
+        truth_ = database::open_truth(workspace.database_root());
     else if (workspace.made_with_truth())
         throw InputError(
             fmt::format("{}: is not there, though workspace {} was made from a database with a truth; put the database "
@@ -30,8 +30,8 @@ std::optional<TruthOrigin> PerformanceReader::truth_origin() const {
 
 void PerformanceReader::check_neutral(const std::string& subject) const {
     const auto neutral = workspace_.face(workspace_.neutral(subject));
-    (void)preprocessing::landmark_spline(workspace_.average().landmarks, neutral.landmarks);
-    if (truth_) (void)synthesis::load_true_scan(*truth_, neutral.id);
+    (void)geometry::landmark_spline(workspace_.average().landmarks, neutral.landmarks);
+    if (truth_) (void)database::load_true_scan(*truth_, neutral.id);
 }
 
 Performance PerformanceReader::read(const ScanId& expressive) const {
@@ -40,7 +40,7 @@ Performance PerformanceReader::read(const ScanId& expressive) const {
     own.expressive = workspace_.face(expressive);
     own.neutral_from_expressive = own.expressive.neutral_from_scan;
     if (!truth_) return own;
-    own.true_neutral = synthesis::load_true_scan(*truth_, own.neutral.id);
+    own.true_neutral = database::load_true_scan(*truth_, own.neutral.id);
     own.true_expression = true_expression(expressive, *own.true_neutral);
     own.neutral_from_expressive =
         own.true_neutral->scanner_from_head * own.true_expression->scanner_from_head.inverse(Eigen::Isometry);
@@ -48,13 +48,13 @@ Performance PerformanceReader::read(const ScanId& expressive) const {
 }
 
 std::vector<geometry::Vector> PerformanceReader::true_field_mm(const ScanId& expressive) const {
-    const auto neutral = synthesis::load_true_scan(*truth_, workspace_.neutral(expressive.subject));
+    const auto neutral = database::load_true_scan(*truth_, workspace_.neutral(expressive.subject));
     return true_expression(expressive, neutral).displacement_mm;
 }
 
-synthesis::TrueScan PerformanceReader::true_expression(const ScanId& expressive,
-                                                       const synthesis::TrueScan& neutral) const {
-    auto scan = synthesis::load_true_scan(*truth_, expressive);
+database::TrueScan PerformanceReader::true_expression(const ScanId& expressive,
+                                                      const database::TrueScan& neutral) const {
+    auto scan = database::load_true_scan(*truth_, expressive);
     for (std::size_t v = 0; v < scan.displacement_mm.size(); ++v) scan.displacement_mm[v] -= neutral.displacement_mm[v];
     return scan;
 }

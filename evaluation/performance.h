@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "database/truth.h"
 #include "preprocessing/face.h"
 #include "preprocessing/workspace.h"
-#include "synthesis/truth.h"
 
 namespace mimik::evaluation {
 
 /// One subject at rest and with an expression: the two faces, and what is truly known of them.
 struct Performance {
     preprocessing::Face neutral, expressive;
-    geometry::Transform neutral_from_expressive;         ///< by the true pose, or else as preprocessing aligned them
-    std::optional<synthesis::TrueScan> true_neutral;     ///< without a truth: none
-    std::optional<synthesis::TrueScan> true_expression;  ///< displacement_mm from the neutral scan
+    geometry::Transform neutral_from_expressive;        ///< by the true pose, or else as preprocessing aligned them
+    std::optional<database::TrueScan> true_neutral;     ///< without a truth: none
+    std::optional<database::TrueScan> true_expression;  ///< displacement_mm from the neutral scan
 };
 
 /// Which random numbers and faces a database with a truth was made of, and how far those spread, as truth.json has it.
@@ -48,11 +48,11 @@ public:
     [[nodiscard]] std::vector<geometry::Vector> true_field_mm(const database::ScanId& expressive) const;
 
 private:
-    [[nodiscard]] synthesis::TrueScan true_expression(const database::ScanId& expressive,
-                                                      const synthesis::TrueScan& neutral) const;
+    [[nodiscard]] database::TrueScan true_expression(const database::ScanId& expressive,
+                                                     const database::TrueScan& neutral) const;
 
     const preprocessing::Workspace& workspace_;
-    std::optional<synthesis::Truth> truth_;
+    std::optional<database::Truth> truth_;
 };
 
 /// What gave no answer, told by any thread.

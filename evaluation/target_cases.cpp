@@ -32,7 +32,7 @@ struct MaterialPoints {
     }
 };
 
-MaterialPoints material_points(const synthesis::TrueScan& neutral, const std::vector<Point>& vertices) {
+MaterialPoints material_points(const database::TrueScan& neutral, const std::vector<Point>& vertices) {
     const geometry::SurfaceIndex surface(neutral.vertices_mm, geometry::triangulate(neutral.faces));
     const auto triangles = surface.triangles();
     MaterialPoints points;
@@ -147,9 +147,9 @@ private:
 
     /// Made when a method first asks.
     const TargetFace& prepared(const Method& method) {
-        const bool thesis = method.model.frame == modeling::Frame::affine;
+        const bool thesis = method.model.normalisation == modeling::Normalisation::affine;
         auto& face = thesis ? affine_ : similar_;
-        if (!face) face.emplace(own_.neutral, method.model.frame, thesis);
+        if (!face) face.emplace(own_.neutral, method.model.normalisation, thesis);
         return *face;
     }
 

@@ -51,8 +51,7 @@ Colour colour_from_lightness_chroma_hue(double l, double chroma, double hue_deg)
 ColourMap parse_colour_map(const std::string& name) {
     if (name == "sequential") return ColourMap::sequential;
     if (name == "diverging") return ColourMap::diverging;
-    throw InputError(
-        fmt::format("colour map {} is not known; give sequential or diverging", base::in_quotes(name)));
+    throw InputError(fmt::format("colour map {} is not known; give sequential or diverging", base::in_quotes(name)));
 }
 
 Colour map_colour(ColourMap map, double t) {

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <vtkRenderWindow.h>
 
+#include "base/errors.h"
+#include "base/text.h"
 #include "figures/canvas.h"
 #include "figures/offscreen.h"
 #include "figures/panel_scene.h"
-#include "base/errors.h"
-#include "base/text.h"
 
 namespace mimik::figures {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "figures/colour_map.h"
-#include "io/image.h"
 #include "geometry/mesh.h"
 #include "geometry/types.h"
+#include "io/image.h"
 
 namespace mimik::figures {
 

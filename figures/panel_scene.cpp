@@ -23,8 +23,8 @@
 #include <vtkTexture.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "figures/offscreen.h"
 #include "base/errors.h"
+#include "figures/offscreen.h"
 
 namespace mimik::figures {
 namespace {
@@ -346,7 +346,7 @@ std::vector<double> scalar_values(const Mesh& mesh, const std::string& attribute
 }
 
 io::Image draw_panel(const Panel& panel, const PanelCamera& camera, const Figure& figure,
-                           const std::array<double, 2>& scalar_range) {
+                     const std::array<double, 2>& scalar_range) {
     vtkNew<vtkRenderer> renderer;
     renderer->SetBackground(unit_rgb(figure.background).data());
     renderer->AutomaticLightCreationOff();

@@ -19,7 +19,7 @@ struct PanelCamera {
 /// The face alone, without caption, as seen by an orthographic camera. `scalar_range` is where the panel's colour map
 /// begins and ends.
 [[nodiscard]] io::Image draw_panel(const Panel& panel, const PanelCamera& camera, const Figure& figure,
-                                         const std::array<double, 2>& scalar_range);
+                                   const std::array<double, 2>& scalar_range);
 
 /// One value per vertex: the attribute itself, or the length of a vector. @throws InputError listing the attributes
 /// there are.

@@ -100,8 +100,9 @@ constexpr double thinnest_ratio = 1e-12;
 
 void check_spread(std::span<const Point> source_mm, const Point& centre_mm, double radius_mm,
                   const ThinPlateSplineOptions& options, std::span<const std::string> names) {
-    const double least_separation_mm = std::max(options.min_separation_mm, std::numeric_limits<double>::min());
-    const double least_thickness_mm = std::max(options.min_thickness_mm, thinnest_ratio * radius_mm);
+    const double least_separation_mm =
+        std::max(options.min_separation_ratio * radius_mm, std::numeric_limits<double>::min());
+    const double least_thickness_mm = std::max(options.min_thickness_ratio, thinnest_ratio) * radius_mm;
     if (const auto pair = closest_pair(source_mm, least_separation_mm))
         throw NumericalError(fmt::format(
             "thin-plate spline: the source points {} and {} lie {:.3g} mm apart (least allowed: {:.3g} mm); "
@@ -157,13 +158,12 @@ struct AffineReflection {
 }  // namespace
 
 void ThinPlateSplineOptions::check() const {
-    const auto at_least_zero = [](const char* field, double value) {
-        if (!(value >= 0) || !std::isfinite(value))
-            throw InputError(fmt::format("{} is {}; give 0 or more", field, value));
-    };
-    at_least_zero("smoothing", smoothing);
-    at_least_zero("min_separation_mm", min_separation_mm);
-    at_least_zero("min_thickness_mm", min_thickness_mm);
+    if (!(smoothing >= 0) || !std::isfinite(smoothing))
+        throw InputError(fmt::format("smoothing is {}; give 0 or more", smoothing));
+    for (const auto& [field, value] : {std::pair{"min_separation_ratio", min_separation_ratio},
+                                       std::pair{"min_thickness_ratio", min_thickness_ratio}})
+        if (!(value >= 0 && value < 1))
+            throw InputError(fmt::format("{} is {}; give 0 or more, and less than 1", field, value));
 }
 
 ThinPlateSpline ThinPlateSpline::fit(std::span<const Point> source_mm, std::span<const Point> target_mm,

@@ -13,9 +13,10 @@ struct ThinPlateSplineOptions {
     SplineKernel kernel = SplineKernel::r;
     double smoothing = 0.0;  ///< X in K + X I, unit of K (mm, or mm^2 for r2_log_r2); 0 passes through every point
     /// Refuse controls that lie closer than this to one another, or to one common plane (thin clouds turn 1 mm of noise
-    /// into centimetres off the plane).
-    double min_separation_mm = 1e-6;
-    double min_thickness_mm = 1e-3;
+    /// into centimetres off the plane). Shares of the size of their cloud (root mean square radius), so that they hold
+    /// in any unit: on a face 0.5 nm and 0.5 micrometres.
+    double min_separation_ratio = 1e-8;
+    double min_thickness_ratio = 1e-5;
     void check() const;
 };
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/fields.h"
 #include "base/file.h"
 #include "geometry/landmarks.h"
 #include "geometry/types.h"
@@ -82,6 +83,52 @@ void read_list(const nlohmann::json& object, const char* key, const Take& take) 
 
 /// As we write it: one value a line; bytes that are no UTF-8 (file names may hold any) become the replacement character
 /// instead of an exception at the end of a long run.
+/// An enum by its to_string(): its values count from 0. @throws InputError listing the words there are.
+template <class Enum>
+Enum enum_from_json(const nlohmann::json& value) {
+    constexpr int most_values = 16;
+    const auto word = value.get<std::string>();
+    std::string words;
+    for (int k = 0; k < most_values; ++k) {
+        const std::string known(to_string(static_cast<Enum>(k)));
+        if (known == word) return static_cast<Enum>(k);
+        if (words.find(known) == std::string::npos) words += (words.empty() ? "" : ", ") + known;
+    }
+    throw InputError(shown(value) + " is none of " + words);
+}
+
+/// The fields of an options struct (base/fields.h), by name; enums as words.
+template <base::HasFields Options>
+nlohmann::json fields_to_json(const Options& options) {
+    nlohmann::json json = nlohmann::json::object();
+    base::each_field(options, [&](const char* name, const auto& value) {
+        using Value = std::remove_cvref_t<decltype(value)>;
+        if constexpr (base::HasFields<Value>)
+            json[name] = fields_to_json(value);
+        else if constexpr (std::is_enum_v<Value>)
+            json[name] = to_string(value);
+        else
+            json[name] = value;
+    });
+    return json;
+}
+/// All of them have to be there. @throws InputError naming the field.
+template <base::HasFields Options>
+void read_fields(const nlohmann::json& json, Options& options) {
+    base::each_field(options, [&](const char* name, auto& value) {
+        using Value = std::remove_cvref_t<decltype(value)>;
+        if constexpr (base::HasFields<Value>)
+            read_field(json, name, [&](const nlohmann::json& inner) {
+                read_fields(inner, value);
+                return 0;
+            });
+        else if constexpr (std::is_enum_v<Value>)
+            value = read_field(json, name, enum_from_json<Value>);
+        else
+            value = read_field<Value>(json, name);
+    });
+}
+
 [[nodiscard]] std::string json_text(const nlohmann::json& document);
 [[nodiscard]] std::string json_text(const nlohmann::ordered_json& document);
 

@@ -10,13 +10,14 @@
 
 #include "base/errors.h"
 #include "base/file.h"
-#include "io/json_values.h"
-#include "io/landmark_io.h"
+#include "base/text.h"
+#include "facs/face_regions.h"
+#include "geometry/face_axes.h"
+#include "geometry/landmark_spline.h"
 #include "geometry/point_index.h"
 #include "geometry/surface_index.h"
-#include "base/text.h"
-#include "modeling/face_regions.h"
-#include "preprocessing/control_pairs.h"
+#include "io/json_values.h"
+#include "io/landmark_io.h"
 
 namespace mimik::modeling {
 
@@ -26,13 +27,13 @@ using geometry::Vector;
 using preprocessing::AverageFace;
 using preprocessing::Face;
 
-const geometry::Transform& average_from_scan(const Face& face, Frame frame) {
-    return frame == Frame::affine ? face.average_from_scan_affine : face.average_from_scan;
+const geometry::Transform& average_from_scan(const Face& face, Normalisation normalisation) {
+    return normalisation == Normalisation::affine ? face.average_from_scan_affine : face.average_from_scan;
 }
 
 ModelOptions ModelOptions::thesis() {
     ModelOptions options;
-    options.frame = Frame::affine;
+    options.normalisation = Normalisation::affine;
     options.kernel = geometry::SplineKernel::r2_log_r2;
     options.smoothing = 0.0;
     options.anchors = false;
@@ -83,44 +84,40 @@ private:
     std::optional<geometry::PointIndex> index_;
 };
 
-double mouth_width(const Landmarks& landmarks) {
-    return (landmarks.position_mm("mouth_corner_left") - landmarks.position_mm("mouth_corner_right")).norm();
-}
-
 PlacedKinds placed_kinds(const ModelOptions& options) {
     return {.coverage = options.coverage_points, .anchors = options.anchors};
 }
 
 /// Wrinkle points are placed in any case: where they stand there is no coverage point.
-bool wanted(ControlKind kind, const ModelOptions& options) {
-    return kind != ControlKind::wrinkle || options.wrinkle_points;
+bool wanted(facs::ControlKind kind, const ModelOptions& options) {
+    return kind != facs::ControlKind::wrinkle || options.wrinkle_points;
 }
 
 /// Whether a unit of one half of the face has a zone centred in the other: a cheek raiser, upper face by FACS, moves
 /// the cheek below the border.
-bool crosses_border(const SidedUnit& sided, const Landmarks& landmarks) {
-    const RegionBorder border(landmarks);
+bool crosses_border(const facs::SidedUnit& sided, const Landmarks& landmarks) {
+    const facs::RegionBorder border(landmarks);
     return std::any_of(sided.unit->zone.begin(), sided.unit->zone.end(), [&](const auto& ellipse) {
-        const double above_mm = border.above_mm(place(ellipse.centre, landmarks, database::Side::left));
+        const double above_mm = border.above_mm(facs::place(ellipse.centre, landmarks, facs::Side::left));
         return sided.unit->lower_face ? above_mm > 0 : above_mm < 0;
     });
 }
 
 }  // namespace
 
-ExpressionGauge::ExpressionGauge(const FacsCatalogue& catalogue, const std::string& expression,
+ExpressionGauge::ExpressionGauge(const facs::FacsCatalogue& catalogue, const facs::Expression& expression,
                                  const AverageFace& average, const ModelOptions& options)
     : catalogue_(catalogue), average_(average), expression_(expression), options_(options) {
     options_.check();
-    const auto units = catalogue.resolve(expression);
-    begun_.expression = expression_name(catalogue, expression);
+    const auto units = catalogue.units(expression);
+    begun_.expression = expression;
     begun_.moves_upper_face = begun_.moves_lower_face = false;
     for (const auto& sided : units) (sided.unit->lower_face ? begun_.moves_lower_face : begun_.moves_upper_face) = true;
     // Where anchors hold the rest of the face, nothing is cut off at the border that the unit does move.
     if (options_.anchors)
         for (const auto& sided : units)
             if (crosses_border(sided, average.landmarks)) begun_.moves_upper_face = begun_.moves_lower_face = true;
-    begun_.frame = options_.frame;
+    begun_.normalisation = options_.normalisation;
     if (!options_.place_on_average) return;
     const geometry::SurfaceIndex surface(average.grid.vertices_mm, geometry::triangles(average.grid));
     on_average_ = place_controls(catalogue, expression, average.landmarks, surface, placed_kinds(options_));
@@ -133,8 +130,8 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     ExpressionModel model = begun_;
     model.sources = {neutral.id.name(), expressive.id.name()};
 
-    const auto& to_average = average_from_scan(neutral, options.frame);
-    const auto& to_average_too = average_from_scan(expressive, options.frame);
+    const auto& to_average = average_from_scan(neutral, options.normalisation);
+    const auto& to_average_too = average_from_scan(expressive, options.normalisation);
     const auto neutral_marks =
         geometry::transformed(options.snap_to_vertices ? neutral.snapped_landmarks : neutral.landmarks, to_average);
     const auto expressive_marks = geometry::transformed(
@@ -148,7 +145,7 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     if (options.place_on_average) {
         placed = on_average_;
         model.landmarks = average_.landmarks;
-        const auto source_from_average = preprocessing::landmark_spline(average_.landmarks, neutral_marks, spline);
+        const auto source_from_average = geometry::landmark_spline(average_.landmarks, neutral_marks, spline);
         for (const auto& control : placed.controls)
             controls_on_source.push_back(
                 neutral_surface.nearest(source_from_average(control.position_mm), options.snap_to_vertices));
@@ -165,10 +162,10 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
         }
         for (const auto& anchor : placed.anchors) anchors_on_source.push_back(anchor.position_mm);
     }
-    model.mouth_width_mm = mouth_width(model.landmarks);
+    model.mouth_width_mm = geometry::mouth_width_mm(model.landmarks);
     model.left_out = placed.left_out;
 
-    preprocessing::ControlPairs pairs(neutral_marks, expressive_marks);
+    geometry::LandmarkPairs pairs(neutral_marks, expressive_marks);
     for (const auto& merged : pairs.merged())
         model.left_out.push_back(fmt::format("{}: landmark {}", neutral.id.name(), merged));
     for (std::size_t k = 0; k < placed.anchors.size(); ++k)
@@ -191,11 +188,11 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
                                  to_average_too.inverse() * found});
     }
     for (const auto& anchor : placed.anchors)
-        model.points.push_back({anchor.name, ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
+        model.points.push_back({anchor.name, facs::ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
     return model;
 }
 
-ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::string& expression,
+ExpressionModel measure_expression(const facs::FacsCatalogue& catalogue, const facs::Expression& expression,
                                    const AverageFace& average, const Face& neutral, const Face& expressive,
                                    const ModelOptions& options, std::vector<FollowedPoint>* followed) {
     return ExpressionGauge(catalogue, expression, average, options).measure(neutral, expressive, followed);
@@ -209,14 +206,15 @@ void ExpressionMean::add(const ExpressionModel& model) {
         return;
     }
     auto& sum = *sum_;
-    if (model.expression != sum.expression || model.frame != sum.frame)
-        throw InputError(fmt::format("{} and {} do not go together in a mean", sum.expression, model.expression));
+    if (model.expression != sum.expression || model.normalisation != sum.normalisation)
+        throw InputError(
+            fmt::format("{} and {} do not go together in a mean", sum.expression.name(), model.expression.name()));
     for (const auto& mark : sum.landmarks.all())
         if (const auto* other = model.landmarks.find(mark.name);
             !other || (other->position_mm - mark.position_mm).norm() > 1e-9)
             throw InputError(
                 fmt::format("{}: models of {} and {} stand on different faces; model them on the average face",
-                            sum.expression, sum.sources.front(), model.sources.front()));
+                            sum.expression.name(), sum.sources.front(), model.sources.front()));
     sum.sources.insert(sum.sources.end(), model.sources.begin(), model.sources.end());
     for (const auto& reason : model.left_out)
         if (std::find(sum.left_out.begin(), sum.left_out.end(), reason) == sum.left_out.end())
@@ -254,8 +252,16 @@ ExpressionModel mean_expression(std::span<const ExpressionModel> models) {
 
 std::string variant_suffix(const ModelOptions& options, const ModelOptions& usual) {
     std::string suffix;
-    if (options.kernel != usual.kernel) suffix += options.kernel == geometry::SplineKernel::r ? "_r" : "_r2logr";
-    if (options.anchors != usual.anchors) suffix += options.anchors ? "_anchors" : "_no-anchors";
+    for (const auto& [name, value, usual_value, is_switch] : base::field_differences(options, usual)) {
+        // Another kernel than the usual one passes through every landmark: its name says so much.
+        if (name == "smoothing" && options.kernel != usual.kernel && options.smoothing == 0) continue;
+        auto words = name;
+        std::replace(words.begin(), words.end(), '_', '-');
+        if (is_switch)
+            suffix += (value == "on" ? "_" : "_no-") + words;
+        else
+            suffix += "_" + (name == "kernel" || name == "frame" ? value : words + "-" + value);
+    }
     return suffix;
 }
 
@@ -263,36 +269,13 @@ namespace {
 
 constexpr const char* model_file_kind = "mimik expression model";
 
-const char* kernel_name(geometry::SplineKernel kernel) { return kernel == geometry::SplineKernel::r ? "r" : "r2logr"; }
-
 nlohmann::json provenance_to_json(const ModelProvenance& provenance) {
-    const auto& options = provenance.options;
-    return {{"mimik", provenance.mimik_version},
-            {"method", provenance.method},
-            {"frame", options.frame == Frame::affine ? "affine" : "similarity"},
-            {"kernel", kernel_name(options.kernel)},
-            {"smoothing", options.smoothing},
-            {"anchors", options.anchors},
-            {"wrinkle_points", options.wrinkle_points},
-            {"coverage_points", options.coverage_points},
-            {"snap_to_vertices", options.snap_to_vertices},
-            {"place_on_average", options.place_on_average},
-            {"catalogue", {{"name", provenance.catalogue}, {"hash", provenance.catalogue_hash}}},
-            {"average_face", provenance.average_face}};
-}
-
-Frame parse_frame(const nlohmann::json& value) {
-    const auto name = value.get<std::string>();
-    if (name != "affine" && name != "similarity")
-        throw InputError(fmt::format("{} is neither affine nor similarity", base::in_quotes(name)));
-    return name == "affine" ? Frame::affine : Frame::similarity;
-}
-
-geometry::SplineKernel parse_kernel(const nlohmann::json& value) {
-    const auto name = value.get<std::string>();
-    for (const auto kernel : {geometry::SplineKernel::r, geometry::SplineKernel::r2_log_r2})
-        if (name == kernel_name(kernel)) return kernel;
-    throw InputError(fmt::format("{} is neither r nor r2logr", base::in_quotes(name)));
+    nlohmann::json json = io::fields_to_json(provenance.options);
+    json["mimik"] = provenance.mimik_version;
+    json["method"] = provenance.method;
+    json["catalogue"] = {{"name", provenance.catalogue}, {"hash", provenance.catalogue_hash}};
+    json["average_face"] = provenance.average_face;
+    return json;
 }
 
 ModelProvenance provenance_from_json(const nlohmann::json& json) {
@@ -300,15 +283,7 @@ ModelProvenance provenance_from_json(const nlohmann::json& json) {
     ModelProvenance provenance;
     provenance.mimik_version = read_field<std::string>(json, "mimik");
     provenance.method = read_field<std::string>(json, "method");
-    auto& options = provenance.options;
-    options.frame = read_field(json, "frame", parse_frame);
-    options.kernel = read_field(json, "kernel", parse_kernel);
-    options.smoothing = read_field<double>(json, "smoothing");
-    options.anchors = read_field<bool>(json, "anchors");
-    options.wrinkle_points = read_field<bool>(json, "wrinkle_points");
-    options.coverage_points = read_field<bool>(json, "coverage_points");
-    options.snap_to_vertices = read_field<bool>(json, "snap_to_vertices");
-    options.place_on_average = read_field<bool>(json, "place_on_average");
+    io::read_fields(json, provenance.options);
     read_field(json, "catalogue", [&](const nlohmann::json& catalogue) {
         provenance.catalogue = read_field<std::string>(catalogue, "name");
         provenance.catalogue_hash = read_field<std::string>(catalogue, "hash");
@@ -322,23 +297,15 @@ ModelProvenance provenance_from_json(const nlohmann::json& json) {
 
 std::vector<std::string> differences(const ModelProvenance& stored, const ModelProvenance& here) {
     std::vector<std::string> found;
-    const auto compare = [&](const char* what, const auto& a, const auto& b) {
-        if (a != b) found.push_back(fmt::format("{} {}, here {}", what, a, b));
-    };
-    const auto compare_switch = [&](const char* what, bool a, bool b) {
-        if (a != b) found.push_back(fmt::format("{} {}, here {}", what, a ? "on" : "off", b ? "on" : "off"));
-    };
-    compare("kernel", std::string(kernel_name(stored.options.kernel)), std::string(kernel_name(here.options.kernel)));
-    compare("smoothing", stored.options.smoothing, here.options.smoothing);
-    compare_switch("anchors", stored.options.anchors, here.options.anchors);
-    compare_switch("wrinkle points", stored.options.wrinkle_points, here.options.wrinkle_points);
-    compare_switch("coverage points", stored.options.coverage_points, here.options.coverage_points);
-    compare_switch("snapping to vertices", stored.options.snap_to_vertices, here.options.snap_to_vertices);
-    compare_switch("placing on the average face", stored.options.place_on_average, here.options.place_on_average);
+    for (auto& [name, stored_value, here_value, is_switch] : base::field_differences(stored.options, here.options)) {
+        std::replace(name.begin(), name.end(), '_', ' ');
+        found.push_back(fmt::format("{} {}, here {}", name, stored_value, here_value));
+    }
     if (stored.catalogue_hash != here.catalogue_hash)
         found.push_back(fmt::format("catalogue {} ({}), here {} ({})", stored.catalogue, stored.catalogue_hash,
                                     here.catalogue, here.catalogue_hash));
-    compare("average face", stored.average_face, here.average_face);
+    if (stored.average_face != here.average_face)
+        found.push_back(fmt::format("average face {}, here {}", stored.average_face, here.average_face));
     return found;
 }
 
@@ -369,10 +336,10 @@ std::string encode_expression_model(const ExpressionModel& model) {
                           {"projection_mm", point.projection_mm}});
     nlohmann::json document = {{"schema", 1},
                                {"kind", model_file_kind},
-                               {"expression", model.expression},
+                               {"expression", model.expression.name()},
                                {"moves_upper_face", model.moves_upper_face},
                                {"moves_lower_face", model.moves_lower_face},
-                               {"frame", model.frame == Frame::affine ? "affine" : "similarity"},
+                               {"frame", model.normalisation == Normalisation::affine ? "affine" : "similarity"},
                                {"units", "mm"},
                                {"sources", model.sources},
                                {"mouth_width_mm", model.mouth_width_mm},
@@ -398,10 +365,16 @@ ExpressionModel decode_expression_model(std::string_view text, const std::string
         if (const auto kind = read_field<std::string>(document, "kind"); kind != model_file_kind)
             throw InputError(fmt::format("it is {}, not '{}'; give a file of 'mimik model'", base::in_quotes(kind),
                                          model_file_kind));
-        model.expression = read_field<std::string>(document, "expression");
+        model.expression = read_field(document, "expression", [](const nlohmann::json& value) {
+            const auto word = value.get<std::string>();
+            const auto expression = facs::parse_expression(word);
+            if (!expression || expression->neutral())
+                throw InputError(fmt::format("{} is no expression such as AU12", base::in_quotes(word)));
+            return *expression;
+        });
         model.moves_upper_face = read_field<bool>(document, "moves_upper_face");
         model.moves_lower_face = read_field<bool>(document, "moves_lower_face");
-        model.frame = read_field(document, "frame", parse_frame);
+        model.normalisation = read_field(document, "frame", io::enum_from_json<Normalisation>);
         model.sources = read_field<std::vector<std::string>>(document, "sources");
         model.mouth_width_mm = read_field<double>(document, "mouth_width_mm");
         model.landmarks = io::landmarks_from_json(document, "landmarks");
@@ -409,7 +382,7 @@ ExpressionModel decode_expression_model(std::string_view text, const std::string
             if (model.points.size() == io::most_landmarks)  // a spline goes through them, too
                 throw InputError(fmt::format("more than the {} points that are read", io::most_landmarks));
             model.points.push_back({read_field<std::string>(point, "name"),
-                                    parse_control_kind(read_field<std::string>(point, "kind")),
+                                    facs::parse_control_kind(read_field<std::string>(point, "kind")),
                                     read_field(point, "position_mm", io::vector_from_json),
                                     read_field(point, "displacement_mm", io::vector_from_json),
                                     read_field<double>(point, "projection_mm")});

@@ -8,24 +8,29 @@
 #include <string_view>
 #include <vector>
 
+#include "base/fields.h"
+#include "facs/facs_catalogue.h"
 #include "geometry/landmarks.h"
 #include "geometry/thin_plate_spline.h"
 #include "modeling/control_points.h"
-#include "modeling/facs_catalogue.h"
 #include "preprocessing/average_face.h"
 #include "preprocessing/face.h"
 
 namespace mimik::modeling {
 
 /// Which normalisation a model's numbers are in.
-enum class Frame {
+enum class Normalisation {
     similarity,  ///< average face by a similarity of the neutral: the expression is kept (default)
     affine       ///< Eqs 5.1-5.4, each scan on its own (thesis)
 };
-[[nodiscard]] const geometry::Transform& average_from_scan(const preprocessing::Face& face, Frame frame);
+[[nodiscard]] constexpr const char* to_string(Normalisation normalisation) {
+    return normalisation == Normalisation::affine ? "affine" : "similarity";
+}
+[[nodiscard]] const geometry::Transform& average_from_scan(const preprocessing::Face& face,
+                                                           Normalisation normalisation);
 
 struct ModelOptions {
-    Frame frame = Frame::similarity;
+    Normalisation normalisation = Normalisation::similarity;
     geometry::SplineKernel kernel = geometry::SplineKernel::r;
     double smoothing = 30.0;  ///< of the landmark splines, unit of the kernel: landmarks are marked to 0.5-1 mm only,
                               ///< and of 0, 10, 30 mm the last measured best
@@ -36,13 +41,26 @@ struct ModelOptions {
     bool place_on_average =
         true;  ///< place controls on the average face and carry them to the source; else on the source
 
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("frame", self.normalisation);
+        visit("kernel", self.kernel);
+        visit("smoothing", self.smoothing);
+        visit("anchors", self.anchors);
+        visit("wrinkle_points", self.wrinkle_points);
+        visit("coverage_points", self.coverage_points);
+        visit("snap_to_vertices", self.snap_to_vertices);
+        visit("place_on_average", self.place_on_average);
+    }
     /// The thesis as printed: affine frame, r^2 ln r^2, no anchors, muscle and wrinkle points, nearest vertices.
     [[nodiscard]] static ModelOptions thesis();
     [[nodiscard]] bool operator==(const ModelOptions&) const = default;
     void check() const;
 };
+static_assert(base::lists_every_field<ModelOptions>());
 
-/// What makes a model another than `usual` would: "_r2logr_no-anchors", for the names of its file and of its pictures.
+/// What makes a model another than `usual` would, every field of it: "_r2logr_no-anchors", for the names of its file
+/// and of its pictures.
 [[nodiscard]] std::string variant_suffix(const ModelOptions& options, const ModelOptions& usual);
 
 /// How a stored model came about.
@@ -60,7 +78,7 @@ struct ModelProvenance {
 /// One control point of a model: where it is on the model's own neutral face, and where the expression takes it.
 struct ModelPoint {
     std::string name;
-    ControlKind kind = ControlKind::muscle;
+    facs::ControlKind kind = facs::ControlKind::muscle;
     geometry::Point position_mm = geometry::Point::Zero();
     geometry::Vector displacement_mm = geometry::Vector::Zero();  ///< Eq. 5.6; zero for anchors
     double projection_mm = 0.0;  ///< how far the spline's answer lay from the expressive surface
@@ -69,10 +87,10 @@ struct ModelPoint {
 /// An Action Unit (or emotion) as control points and displacements in the average frame: all that is needed to put it
 /// on any face. From one source, or the mean of several on the average face.
 struct ExpressionModel {
-    std::string expression;  ///< "AU12", "AU12_L", "HAPPY"
+    facs::Expression expression;
     bool moves_upper_face = false;
     bool moves_lower_face = true;
-    Frame frame = Frame::similarity;
+    Normalisation normalisation = Normalisation::similarity;
     std::vector<std::string> sources;           ///< scans that went in, neutral and expressive in turn
     geometry::Landmarks landmarks;              ///< of the model's neutral face, same frame as the points
     double mouth_width_mm = 0.0;                ///< between the mouth corners of that neutral face, same frame
@@ -87,7 +105,7 @@ struct ExpressionModel {
 /// One control point of a model on the two scans that it was measured from, for figures and for those who want to know.
 struct FollowedPoint {
     std::string name;
-    ControlKind kind = ControlKind::muscle;
+    facs::ControlKind kind = facs::ControlKind::muscle;
     geometry::Point neutral_mm = geometry::Point::Zero();     ///< scanner frame of the neutral scan
     geometry::Point expressive_mm = geometry::Point::Zero();  ///< scanner frame of the expressive scan
 };
@@ -98,30 +116,28 @@ struct FollowedPoint {
 /// catalogue and average.
 class ExpressionGauge {
 public:
-    /// @param expression  "12", "4L", "HAPPY": what the scans show, or one side of it.
-    /// @throws InputError if landmarks are missing or the expression is not in the catalogue.
-    ExpressionGauge(const FacsCatalogue& catalogue, const std::string& expression,
+    /// @param expression  what the scans show, or one side of it.
+    /// @throws InputError if landmarks are missing or a unit of the expression is not in the catalogue.
+    ExpressionGauge(const facs::FacsCatalogue& catalogue, const facs::Expression& expression,
                     const preprocessing::AverageFace& average, const ModelOptions& options = {});
     /// From any thread. @throws InputError if landmarks are missing; NumericalError from the spline.
     [[nodiscard]] ExpressionModel measure(const preprocessing::Face& neutral, const preprocessing::Face& expressive,
                                           std::vector<FollowedPoint>* followed = nullptr) const;
 
 private:
-    const FacsCatalogue& catalogue_;
+    const facs::FacsCatalogue& catalogue_;
     const preprocessing::AverageFace& average_;
-    std::string expression_;
+    facs::Expression expression_;
     ModelOptions options_;
     ExpressionModel begun_;      ///< what every model of this expression has
     PlacedControls on_average_;  ///< empty if the controls are placed on each source itself
 };
 
 /// One source alone. @throws as ExpressionGauge.
-[[nodiscard]] ExpressionModel measure_expression(const FacsCatalogue& catalogue, const std::string& expression,
-                                                 const preprocessing::AverageFace& average,
-                                                 const preprocessing::Face& neutral,
-                                                 const preprocessing::Face& expressive,
-                                                 const ModelOptions& options = {},
-                                                 std::vector<FollowedPoint>* followed = nullptr);
+[[nodiscard]] ExpressionModel measure_expression(
+    const facs::FacsCatalogue& catalogue, const facs::Expression& expression, const preprocessing::AverageFace& average,
+    const preprocessing::Face& neutral, const preprocessing::Face& expressive, const ModelOptions& options = {},
+    std::vector<FollowedPoint>* followed = nullptr);
 
 /// Source-independent AU (thesis 7.2): mean displacement of every point over models that stand on the average face, one
 /// after another; holds their sum alone. A point that a model left out is averaged over the rest.

@@ -10,8 +10,9 @@
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/file.h"
-#include "geometry/point_index.h"
 #include "base/text.h"
+#include "geometry/face_axes.h"
+#include "geometry/point_index.h"
 #include "modeling/average_fingerprint.h"
 #include "preprocessing/nearest_on_average.h"
 
@@ -28,7 +29,7 @@ std::vector<std::string> RegionLabels::names() const {
 RegionLabels label_regions(const geometry::QuadGrid& grid, const geometry::Landmarks& landmarks) {
     const auto at = [&](const char* name) { return landmarks.position_mm(name); };
     const Point eye_left = at("eye_outer_left"), eye_right = at("eye_outer_right");
-    const double unit = (eye_left - eye_right).norm();
+    const double unit = geometry::outer_eye_distance_mm(landmarks);
     const double middle_x = 0.5 * (eye_left.x() + eye_right.x());
     const double eyes_y = 0.5 * (eye_left.y() + eye_right.y());
     const double brow_y = 0.25 * (at("brow_inner_left").y() + at("brow_inner_right").y() + at("brow_middle_left").y() +
@@ -88,8 +89,7 @@ void check_comment(const std::filesystem::path& file, const std::string& average
     const auto middle = rest.find(comment_middle);
     const auto stated = base::trimmed(rest.substr(0, middle));
     if (stated != schema)
-        lines.fail(
-            fmt::format("schema is {}; this version of Mimik reads schema {}", base::in_quotes(stated), schema));
+        lines.fail(fmt::format("schema is {}; this version of Mimik reads schema {}", base::in_quotes(stated), schema));
     if (middle == std::string_view::npos) return;
     const auto face = base::trimmed(rest.substr(middle + comment_middle.size()));
     if (face != average_face)

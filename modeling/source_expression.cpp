@@ -17,23 +17,22 @@ using preprocessing::Workspace;
 namespace {
 
 std::optional<ScanId> scan_that_shows(const Workspace& workspace, const std::string& subject,
-                                      const std::string& expression) {
-    if (auto id = workspace.expression(subject, expression)) return id;
-    if (!expression.empty() && (expression.back() == 'L' || expression.back() == 'R'))
-        return workspace.expression(subject, expression.substr(0, expression.size() - 1));
-    return std::nullopt;
+                                      const facs::Expression& expression) {
+    if (auto id = workspace.scan_of(subject, expression)) return id;
+    const auto both = expression.on_both_sides();
+    return both ? workspace.scan_of(subject, *both) : std::nullopt;
 }
 
 }  // namespace
 
-ScanId source_scan(const Workspace& workspace, const std::string& subject, const std::string& expression) {
+ScanId source_scan(const Workspace& workspace, const std::string& subject, const facs::Expression& expression) {
     (void)workspace.neutral(subject);  // names the subjects there are if this one is none of them
     if (auto id = scan_that_shows(workspace, subject, expression)) return *id;
     std::vector<std::string> codes;
     for (const auto& scan : workspace.scans())
         if (scan.subject == subject && !scan.neutral()) codes.push_back(scan.code);
     throw InputError(fmt::format("{}: subject '{}' has no scan of expression '{}'; there are: {}",
-                                 workspace.root().string(), subject, expression, fmt::join(codes, ", ")));
+                                 workspace.root().string(), subject, expression.code(), fmt::join(codes, ", ")));
 }
 
 void check_source(const Workspace& workspace, const ExpressionSource& source, const ModelOptions& options) {
@@ -50,35 +49,31 @@ void check_source(const Workspace& workspace, const ExpressionSource& source, co
                     fmt::join(subjects, ", ")));
 }
 
-std::vector<ScanId> source_scans(const Workspace& workspace, const FacsCatalogue& catalogue,
-                                 const std::string& expression, const ExpressionSource& source) {
-    const auto code = catalogue.code(expression);
-    if (source.subject != "mean") return {source_scan(workspace, source.subject, code)};
+std::vector<ScanId> source_scans(const Workspace& workspace, const facs::Expression& expression,
+                                 const ExpressionSource& source) {
+    if (source.subject != "mean") return {source_scan(workspace, source.subject, expression)};
     std::vector<ScanId> ids;
-    for (const auto& subject : workspace.subjects()) {
-        if (workspace.hidden(subject) ||
-            std::find(source.excluded.begin(), source.excluded.end(), subject) != source.excluded.end())
-            continue;
-        if (const auto id = scan_that_shows(workspace, subject, code)) ids.push_back(*id);
+    for (const auto& subject : workspace.shown_subjects()) {
+        if (std::find(source.excluded.begin(), source.excluded.end(), subject) != source.excluded.end()) continue;
+        if (const auto id = scan_that_shows(workspace, subject, expression)) ids.push_back(*id);
     }
     if (ids.empty())
         throw InputError(fmt::format("{}: no other subject shows expression '{}', so there is no mean",
-                                     workspace.root().string(), code));
+                                     workspace.root().string(), expression.code()));
     return ids;
 }
 
-ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatalogue& catalogue,
-                                     const std::string& expression, const ExpressionSource& source,
+ExpressionModel model_from_workspace(const Workspace& workspace, const facs::FacsCatalogue& catalogue,
+                                     const facs::Expression& expression, const ExpressionSource& source,
                                      const ModelOptions& options) {
-    const auto code = catalogue.code(expression);
     check_source(workspace, source, options);
-    const auto ids = source_scans(workspace, catalogue, code, source);
+    const auto ids = source_scans(workspace, expression, source);
     if (source.subject != "mean")
-        return measure_expression(catalogue, code, workspace.average(),
+        return measure_expression(catalogue, expression, workspace.average(),
                                   workspace.face(workspace.neutral(source.subject)), workspace.face(ids.front()),
                                   options);
 
-    const ExpressionGauge gauge(catalogue, code, workspace.average(), options);
+    const ExpressionGauge gauge(catalogue, expression, workspace.average(), options);
     ExpressionMean sum;
     std::vector<std::string> faults;
     bool any = false;
@@ -103,7 +98,7 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const FacsCatal
                 faults.push_back(fault[k]);
             }
     }
-    if (!any) throw InputError(fmt::format("expression '{}': {}", code, fmt::join(faults, "; ")));
+    if (!any) throw InputError(fmt::format("expression '{}': {}", expression.code(), fmt::join(faults, "; ")));
     auto mean = sum.mean();
     mean.unusable_scans = std::move(faults);
     return mean;

@@ -11,10 +11,11 @@
 
 #include "base/errors.h"
 #include "base/file.h"
-#include "io/json_values.h"
 #include "base/parallel.h"
+#include "geometry/face_axes.h"
+#include "geometry/landmark_spline.h"
 #include "geometry/surface_index.h"
-#include "preprocessing/control_pairs.h"
+#include "io/json_values.h"
 #include "preprocessing/normalisation.h"
 #include "preprocessing/workspace_json.h"
 
@@ -292,7 +293,7 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
     grid.cols = options.cols;
 
     const Point left = consensus.position_mm("eye_outer_left"), right = consensus.position_mm("eye_outer_right");
-    const double eyes_mm = (left - right).norm();
+    const double eyes_mm = geometry::outer_eye_distance_mm(consensus);
     const double x_max = options.half_width * eyes_mm;
     const double y_max = 0.5 * (left.y() + right.y()) + options.above_eyes * eyes_mm;
     const double y_min = consensus.position_mm("chin").y() - options.below_chin * eyes_mm;
@@ -314,7 +315,7 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
             for (std::size_t k = first; k < last; ++k) {
                 const Face face = load(begin + k);
                 names[k] = face.id.name();
-                const auto consensus_from_scan = landmark_spline(face.landmarks, consensus);
+                const auto consensus_from_scan = geometry::landmark_spline(face.landmarks, consensus);
                 std::vector<Point> warped(face.grid.size(), Point::Zero());
                 for (std::size_t v = 0; v < warped.size(); ++v)
                     if (face.grid.inside(v)) warped[v] = face.grid.vertices_mm[v];

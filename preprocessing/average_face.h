@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/fields.h"
 #include "geometry/landmarks.h"
 #include "geometry/quad_grid.h"
 #include "preprocessing/face.h"
@@ -20,8 +21,19 @@ struct AverageFaceOptions {
     double below_chin = 0.18;    ///< the chin's underside turns away from the scanner
     double min_share = 0.5;      ///< a cell counts where at least this share of the faces was measured
     int max_iterations = 50;     ///< of the Procrustes consensus
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("rows", self.rows);
+        visit("cols", self.cols);
+        visit("half_width", self.half_width);
+        visit("above_eyes", self.above_eyes);
+        visit("below_chin", self.below_chin);
+        visit("min_share", self.min_share);
+        visit("max_iterations", self.max_iterations);
+    }
     void check() const;
 };
+static_assert(base::lists_every_field<AverageFaceOptions>());
 
 /// The average face model: nose tip at the origin, frontal, mm.
 struct AverageFace {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "base/fields.h"
 #include "geometry/range_scan.h"
 
 namespace mimik::preprocessing {
@@ -11,8 +12,15 @@ struct CleaningOptions {
                                ///< surface that a scanner of 0.8 mm spacing still sees changes by less per point
     double max_jump_mm = 6.0;  ///< neighbours farther apart than this, and joined by no face, belong to different parts
     double min_part = 0.05;    ///< parts smaller than this share of the largest are stray (hair tufts, collar)
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("spike_mm", self.spike_mm);
+        visit("max_jump_mm", self.max_jump_mm);
+        visit("min_part", self.min_part);
+    }
     void check() const;
 };
+static_assert(base::lists_every_field<CleaningOptions>());
 
 struct CleaningReport {
     std::size_t points = 0;        ///< measured points that came in

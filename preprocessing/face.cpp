@@ -13,8 +13,8 @@
 
 namespace mimik::preprocessing {
 
-using io::read_field;
 using geometry::VertexOrigin;
+using io::read_field;
 using nlohmann::json;
 
 namespace {

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/delaunay.h"
 #include "base/errors.h"
+#include "geometry/delaunay.h"
 
 namespace mimik::preprocessing {
 namespace {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "base/fields.h"
 #include "geometry/quad_grid.h"
 #include "geometry/range_scan.h"
 
@@ -20,9 +21,18 @@ struct GriddingOptions {
     double max_edge_spacings = 3.0;
     /// Organised scans: split the scanner's own cells; meshes: draw their faces; instead of triangulating every point.
     bool use_lattice = true;
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("rows", self.rows);
+        visit("cols", self.cols);
+        visit("max_edge_mm", self.max_edge_mm);
+        visit("max_edge_spacings", self.max_edge_spacings);
+        visit("use_lattice", self.use_lattice);
+    }
     /// @throws InputError naming the field and its value.
     void check() const;
 };
+static_assert(base::lists_every_field<GriddingOptions>());
 
 enum class GriddingMethod {
     lattice,  ///< the scanner's cells, and a Delaunay triangulation of the rims alone

@@ -2,8 +2,8 @@
 
 #include <limits>
 
+#include "geometry/landmark_spline.h"
 #include "geometry/point_index.h"
-#include "preprocessing/control_pairs.h"
 
 namespace mimik::preprocessing {
 
@@ -20,7 +20,7 @@ std::vector<NearestOnAverage> nearest_on_average(const Face& face, const Average
     std::vector<Point> vertices;
     for (std::size_t v = 0; v < face.grid.size(); ++v)
         vertices.push_back(face.grid.inside(v) ? face.grid.vertices_mm[v] : Point(Point::Zero()));
-    landmark_spline(face.landmarks, average.landmarks).apply(vertices, vertices);
+    geometry::landmark_spline(face.landmarks, average.landmarks).apply(vertices, vertices);
     const auto nearest = geometry::PointIndex(known).nearest(vertices);
     std::vector<NearestOnAverage> found;
     for (std::size_t v = 0; v < nearest.size(); ++v)

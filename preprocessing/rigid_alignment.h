@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "base/fields.h"
 #include "geometry/surface_index.h"
 #include "geometry/types.h"
 
@@ -18,8 +19,19 @@ struct RigidAlignmentOptions {
     std::size_t max_points = 2000;  ///< of the source, evenly through the list
     /// The first steps, until they are small, are made with so many points; 0: with all of max_points.
     std::size_t coarse_points = 400;
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("trim", self.trim);
+        visit("max_distance_mm", self.max_distance_mm);
+        visit("max_iterations", self.max_iterations);
+        visit("max_points", self.max_points);
+        visit("coarse_points", self.coarse_points);
+        visit("stop_rotation_deg", self.stop_rotation_deg);
+        visit("stop_shift_mm", self.stop_shift_mm);
+    }
     void check() const;
 };
+static_assert(base::lists_every_field<RigidAlignmentOptions>());
 
 struct RigidAlignment {
     geometry::Transform target_from_source = geometry::Transform::Identity();

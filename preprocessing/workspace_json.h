@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/json_values.h"
 #include "geometry/quad_grid.h"
+#include "io/json_values.h"
 
 // What the JSON files of a workspace share. For .cpp files only: the JSON library is a heavy header.
 

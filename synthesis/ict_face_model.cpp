@@ -10,9 +10,9 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/random_stream.h"
 #include "synthesis/face_model.h"
 #include "synthesis/ict_obj.h"
-#include "base/random_stream.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -238,8 +238,7 @@ private:
 
 std::unique_ptr<FaceModel> load_ict_face_model(const std::string& folder) {
     for (const fs::path& candidate : {fs::path(folder), fs::path(folder) / "FaceXModel"})
-        if (base::is_there(candidate / "generic_neutral_mesh.obj"))
-            return std::make_unique<IctFaceModel>(candidate);
+        if (base::is_there(candidate / "generic_neutral_mesh.obj")) return std::make_unique<IctFaceModel>(candidate);
     throw InputError(
         fmt::format("{}: no generic_neutral_mesh.obj there or in FaceXModel below; give a clone of the public "
                     "repository ICT-VGL/ICT-FaceKit",

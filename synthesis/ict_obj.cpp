@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
-#include "io/mesh_io.h"
 #include "base/text.h"
+#include "io/mesh_io.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -49,8 +49,7 @@ std::vector<geometry::Point> decode_ict_vertices(std::string_view head, const st
             const auto word = base::next_word(rest);
             const auto value = base::parse_double(word);
             if (!value || !std::isfinite(*value))
-                lines.fail(
-                    fmt::format("coordinate {} is {}, not a finite number", axis + 1, base::in_quotes(word)));
+                lines.fail(fmt::format("coordinate {} is {}, not a finite number", axis + 1, base::in_quotes(word)));
             point[axis] = *value;
         }
         vertices_mm.push_back(mm * point);

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/random_stream.h"
 #include "synthesis/builtin_curves.h"
 #include "synthesis/depth_raster.h"
-#include "base/random_stream.h"
 #include "synthesis/smooth_field.h"
 
 namespace mimik::synthesis {
@@ -83,7 +83,7 @@ Complexion draw_complexion(const FaceModel& model, const Subject& subject, const
 }
 
 io::Image photograph(const FaceModel& model, const Complexion& complexion, const std::vector<Point>& vertices_mm,
-                           const SyntheticScan& scan, const ScannerOptions& options) {
+                     const SyntheticScan& scan, const ScannerOptions& options) {
     std::vector<Point> vertices(vertices_mm.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = scan.scanner_from_head * vertices_mm[i];
     const auto triangles = geometry::triangulate(model.faces());

@@ -25,7 +25,7 @@ struct Complexion {
 /// scan.texture_coordinates.
 /// @param vertices_mm the surface in the head frame, as it was scanned
 [[nodiscard]] io::Image photograph(const FaceModel& model, const Complexion& complexion,
-                                         const std::vector<geometry::Point>& vertices_mm, const SyntheticScan& scan,
-                                         const ScannerOptions& options = {});
+                                   const std::vector<geometry::Point>& vertices_mm, const SyntheticScan& scan,
+                                   const ScannerOptions& options = {});
 
 }  // namespace mimik::synthesis

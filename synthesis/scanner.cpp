@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
-#include "synthesis/depth_raster.h"
 #include "base/random_stream.h"
+#include "synthesis/depth_raster.h"
 #include "synthesis/smooth_field.h"
 
 namespace mimik::synthesis {
@@ -267,8 +267,8 @@ SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertic
     scan.texture_coordinates.assign(hits.size(), geometry::TextureCoordinate::Zero());
 
     const Point low(lattice.x0_mm, lattice.y0_mm, 0), high(lattice.x0_mm + width_mm, lattice.y0_mm + height_mm, 0);
-    const SmoothField smooth(base::stream_seed(seed, scan_name + "/smooth_noise"), 1, options.smooth_noise_length_mm, low,
-                             high);
+    const SmoothField smooth(base::stream_seed(seed, scan_name + "/smooth_noise"), 1, options.smooth_noise_length_mm,
+                             low, high);
     const SmoothField patches(base::stream_seed(seed, scan_name + "/holes"), 1, 1.6, low, high);
     const SmoothField border(base::stream_seed(seed, scan_name + "/border"), 1, 9.0, low, high);
     std::map<std::string, double> by_region;

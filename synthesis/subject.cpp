@@ -100,10 +100,10 @@ Subject draw_subject(const FaceModel& model, const std::string& name, std::uint6
     return subject;
 }
 
-Performance perform(const Subject& subject, const Expression& expression, const std::string& scan_name,
-                    std::uint64_t seed, const VarianceOptions& options) {
+PosedFace perform(const Subject& subject, const PosedExpression& expression, const std::string& scan_name,
+                  std::uint64_t seed, const VarianceOptions& options) {
     options.check();
-    Performance result;
+    PosedFace result;
     base::RandomStream amplitude(seed, scan_name + "/amplitude");
     base::RandomStream asymmetry(seed, scan_name + "/asymmetry");
     result.amplitude = subject.amplitude * clipped_log_normal(amplitude, options.amplitude_performance);

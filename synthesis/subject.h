@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "synthesis/expression.h"
 #include "synthesis/face_model.h"
+#include "synthesis/posed_expression.h"
 
 namespace mimik::synthesis {
 
@@ -52,7 +52,7 @@ struct Subject {
                                    const VarianceOptions& options = {});
 
 /// One expression as one person did it once.
-struct Performance {
+struct PosedFace {
     std::vector<geometry::Point> vertices_mm;       ///< head frame
     std::vector<geometry::Vector> displacement_mm;  ///< from the person's resting face; micro-expression included
     std::map<std::string, double> weights;          ///< shape -> weight after all factors; without micro-expressions
@@ -62,7 +62,7 @@ struct Performance {
 
 /// `expression` with group "N" gives the neutral face with its micro-expression. `scan_name` ("bs003_LFAU_12_0") names
 /// the streams of chance. @throws InputError if the model lacks a main shape.
-[[nodiscard]] Performance perform(const Subject& subject, const Expression& expression, const std::string& scan_name,
-                                  std::uint64_t seed, const VarianceOptions& options = {});
+[[nodiscard]] PosedFace perform(const Subject& subject, const PosedExpression& expression, const std::string& scan_name,
+                                std::uint64_t seed, const VarianceOptions& options = {});
 
 }  // namespace mimik::synthesis

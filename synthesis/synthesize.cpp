@@ -10,15 +10,15 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/parallel.h"
 #include "database/bnt.h"
 #include "database/bosphorus_landmarks.h"
 #include "database/scan_id.h"
-#include "base/errors.h"
-#include "base/file.h"
+#include "database/truth.h"
 #include "io/image.h"
-#include "base/parallel.h"
 #include "synthesis/photograph.h"
-#include "synthesis/truth.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct Task {
-    Expression expression;
+    PosedExpression expression;
     int repetition = 0;
 };
 
@@ -54,13 +54,13 @@ char intensity_letter(double share) {
     return share < 0.15 ? 'A' : share < 0.35 ? 'B' : share < 0.6 ? 'C' : share < 0.95 ? 'D' : 'E';
 }
 
-std::string facs_line(const database::ScanId& id, const Expression& expression, double amplitude) {
+std::string facs_line(const database::ScanId& id, const PosedExpression& expression, double amplitude) {
     std::string codes;
     const auto side = id.side();
     for (const auto& [unit, strength] : expression.action_units) {
         if (!codes.empty()) codes += '+';
-        if (side == database::Side::left) codes += 'L';
-        if (side == database::Side::right) codes += 'R';
+        if (side == facs::Side::left) codes += 'L';
+        if (side == facs::Side::right) codes += 'R';
         codes += std::to_string(unit);
         codes += intensity_letter(0.8 * strength * amplitude);
     }
@@ -150,7 +150,7 @@ std::string make_scan(const fs::path& folder, const FaceModel& model, const Subj
     database::write_lm2(fs::path(stem).concat(".lm2"),
                         image_landmarks(made, labelled, options.scanner.texture_pixels_per_mm));
 
-    TrueScan truth;
+    database::TrueScan truth;
     truth.id = id;
     truth.faces = model.faces();
     truth.scanner_from_head = made.scanner_from_head;
@@ -160,7 +160,7 @@ std::string make_scan(const fs::path& folder, const FaceModel& model, const Subj
     truth.shape_weights = performance.weights;
     truth.amplitude = performance.amplitude;
     truth.asymmetry = performance.asymmetry;
-    write_true_scan(folder / "truth", truth);
+    database::write_true_scan(folder / "truth", truth);
 
     static std::mutex mutex;
     const std::scoped_lock lock(mutex);

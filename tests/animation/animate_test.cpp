@@ -42,7 +42,7 @@ protected:
         delete average_;
     }
     static ExpressionModel smile(const modeling::ModelOptions& options = {}, const std::string& code = "12") {
-        return modeling::measure_expression(modeling::builtin_catalogue(), code, *average_, source_->neutral,
+        return modeling::measure_expression(facs::builtin_catalogue(), code, *average_, source_->neutral,
                                             source_->smiling, options);
     }
     /// Mean distance of the animated lower face to the true smile, in the head frame of the closed form.
@@ -74,7 +74,7 @@ test::AnalyticSubject* Animate::target_ = nullptr;
 
 TEST_F(Animate, at_magnitude_zero_is_the_neutral_face) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression nothing{&model, 0.0};
     const auto animated = animate(target, std::span(&nothing, 1));
     EXPECT_EQ(animated.extent.largest_displacement_mm, 0);
@@ -82,7 +82,7 @@ TEST_F(Animate, at_magnitude_zero_is_the_neutral_face) {
 
 TEST_F(Animate, moves_a_face_of_other_size_most_of_the_way_to_its_own_smile) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     AnimatedFace still = animated;
@@ -97,7 +97,7 @@ TEST_F(Animate, moves_a_face_of_other_size_most_of_the_way_to_its_own_smile) {
 
 TEST_F(Animate, lower_face_units_leave_the_brows_alone) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     const double brow_y = target_->neutral.landmarks.position_mm("brow_middle_left").y();
@@ -109,7 +109,7 @@ TEST_F(Animate, lower_face_units_leave_the_brows_alone) {
 
 TEST_F(Animate, one_side_of_a_unit_moves_that_side_only) {
     const auto model = smile({}, "12L");
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     const auto& grid = target_->neutral.grid;
@@ -127,7 +127,7 @@ TEST_F(Animate, one_side_of_a_unit_moves_that_side_only) {
 
 TEST_F(Animate, the_same_unit_twice_doubles_as_a_sum_and_does_not_in_parallel) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression once{&model, 1.0};
     const std::array twice = {once, once};
     const auto single = animate(target, std::span(&once, 1));
@@ -141,7 +141,7 @@ TEST_F(Animate, the_same_unit_twice_doubles_as_a_sum_and_does_not_in_parallel) {
 
 TEST_F(Animate, beyond_magnitude_one_a_remark_says_so) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression strong{&model, 1.5};
     EXPECT_THAT(animate(target, std::span(&strong, 1)).remarks, testing::Contains(HasSubstr("exaggerates")));
 }
@@ -175,7 +175,7 @@ TEST_F(Animate, who_opens_a_closed_mouth_is_told_that_it_stays_one_piece) {
     EXPECT_LT(lip_parting_mm(smile()), 0.5);  // both lips go with the corners
 
     const auto told = [](const ExpressionModel& model, double magnitude, const preprocessing::Face& neutral) {
-        const TargetFace target(neutral, modeling::Frame::similarity);
+        const TargetFace target(neutral, modeling::Normalisation::similarity);
         const WeightedExpression weighted{&model, magnitude};
         std::size_t remarks = 0;
         for (const auto& remark : animate(target, std::span(&weighted, 1)).remarks)
@@ -196,7 +196,7 @@ TEST_F(Animate, who_opens_a_closed_mouth_is_told_that_it_stays_one_piece) {
 
 TEST_F(Animate, a_model_of_the_other_normalisation_is_refused) {
     const auto model = smile(modeling::ModelOptions::thesis());
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression weighted{&model, 1.0};
     EXPECT_THROW((void)animate(target, std::span(&weighted, 1)), InputError);
 }
@@ -204,7 +204,7 @@ TEST_F(Animate, a_model_of_the_other_normalisation_is_refused) {
 TEST_F(Animate, the_thesis_warp_equals_a_direct_dense_solve_of_its_system) {
     const auto options = AnimationOptions::thesis();
     const auto model = smile(modeling::ModelOptions::thesis());
-    const TargetFace target(target_->neutral, modeling::Frame::affine, true);
+    const TargetFace target(target_->neutral, modeling::Normalisation::affine, true);
     std::vector<CarriedPoint> points;
     const auto field = expression_field(target, model, options, &points);
 
@@ -243,7 +243,7 @@ TEST_F(Animate, exports_leave_out_what_is_no_measured_surface_and_keep_the_displ
     const auto cols = static_cast<std::uint32_t>(grid.cols);
     for (const auto v : {lone - 1, lone + 1, lone - cols, lone + cols})
         grid.origin[v] = geometry::VertexOrigin::bridged;
-    const TargetFace target(neutral, modeling::Frame::similarity);
+    const TargetFace target(neutral, modeling::Normalisation::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     const auto mesh = to_mesh(animated, target);
@@ -263,7 +263,7 @@ TEST_F(Animate, exports_leave_out_what_is_no_measured_surface_and_keep_the_displ
 
 TEST_F(Animate, lengths_are_those_of_the_frame_that_they_are_asked_in) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     // A similarity: every length is its scale times that of the scanner's frame.
@@ -278,7 +278,7 @@ TEST_F(Animate, lengths_are_those_of_the_frame_that_they_are_asked_in) {
 
 TEST_F(Animate, what_is_too_large_for_a_number_is_refused_with_the_name_of_the_expression) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const auto refused = [&](const ExpressionModel& one, double magnitude) {
         const WeightedExpression weighted{&one, magnitude};
         return database::message_of<NumericalError>([&] { (void)animate(target, std::span(&weighted, 1)); });
@@ -304,7 +304,7 @@ TEST_F(Animate, the_thesis_landmark_splines_equal_a_direct_dense_solve_too) {
             << point.name;  // as for the warp
     }
     // Eq. 5.7, model to target.
-    const TargetFace target(target_->neutral, modeling::Frame::affine, true);
+    const TargetFace target(target_->neutral, modeling::Normalisation::affine, true);
     std::vector<CarriedPoint> carried;
     (void)expression_field(target, model, AnimationOptions::thesis(), &carried);
     ASSERT_EQ(carried.size(), model.points.size());
@@ -319,10 +319,10 @@ TEST_F(Animate, the_thesis_landmark_splines_equal_a_direct_dense_solve_too) {
 }
 
 TEST_F(Animate, in_the_thesis_way_landmarks_and_carried_points_are_vertices) {
-    const TargetFace target(target_->neutral, modeling::Frame::affine, true);
+    const TargetFace target(target_->neutral, modeling::Normalisation::affine, true);
     for (const auto& mark : target_->neutral.snapped_landmarks.all())
         EXPECT_EQ(target.landmarks().position_mm(mark.name), target.average_from_scan() * mark.position_mm);
-    const TargetFace free(target_->neutral, modeling::Frame::affine, false);
+    const TargetFace free(target_->neutral, modeling::Normalisation::affine, false);
     EXPECT_EQ(free.landmarks().position_mm("chin"),
               free.average_from_scan() * target_->neutral.landmarks.position_mm("chin"));
 
@@ -340,7 +340,7 @@ TEST_F(Animate, in_the_thesis_way_landmarks_and_carried_points_are_vertices) {
 
 TEST_F(Animate, lower_face_units_alone_scale_with_the_width_of_the_mouth) {
     auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     model.mouth_width_mm = target.mouth_width_mm() / 1.3;
     const auto ratio_is = [&](double expected) {
         std::vector<CarriedPoint> points;
@@ -348,7 +348,7 @@ TEST_F(Animate, lower_face_units_alone_scale_with_the_width_of_the_mouth) {
         std::size_t compared = 0;
         for (const auto& point : points)
             for (const auto& own : model.points)
-                if (own.name == point.name && own.kind == modeling::ControlKind::muscle) {
+                if (own.name == point.name && own.kind == facs::ControlKind::muscle) {
                     const Vector moved = target.average_from_scan().linear() * point.displacement_mm;
                     EXPECT_LT((moved - expected * own.displacement_mm).norm(), 1e-9) << point.name;  // rounding
                     ++compared;
@@ -364,7 +364,7 @@ TEST_F(Animate, a_unit_fades_over_the_border_of_its_region) {
     auto model = smile();
     // Something to see at the border: the same large push everywhere.
     for (auto& point : model.points) point.displacement_mm = {0, 3, 1};
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     AnimationOptions options;
     options.mouth_ratio = false;
     const auto faded = expression_field(target, model, options);
@@ -395,7 +395,7 @@ TEST_F(Animate, a_unit_fades_over_the_border_of_its_region) {
 
 TEST_F(Animate, a_vertex_keeps_as_much_of_its_displacement_as_it_is_given) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const auto whole = expression_field(target, model, {});
     AnimationOptions options;
     options.keep.assign(whole.size(), 0.25);
@@ -417,9 +417,9 @@ TEST_F(Animate, points_are_merged_where_they_fall_together_and_only_there) {
     point.position_mm.x() -= 2.9;
     points.push_back(point);
     for (const auto& anchor : model.points)
-        if (anchor.kind == modeling::ControlKind::anchor) points.push_back(anchor);
+        if (anchor.kind == facs::ControlKind::anchor) points.push_back(anchor);
     model.points = points;
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     std::vector<CarriedPoint> carried;
     std::vector<std::string> remarks;
     (void)expression_field(target, model, {}, &carried, &remarks);
@@ -432,7 +432,7 @@ TEST_F(Animate, points_are_merged_where_they_fall_together_and_only_there) {
 
 TEST_F(Animate, in_the_average_frame_positions_and_displacements_turn_alike) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     const auto mesh = to_mesh(animated, target, {.frame = OutputFrame::average});
@@ -487,7 +487,7 @@ TEST_F(Animate, every_format_says_of_each_vertex_how_it_moved_and_what_was_measu
     for (std::size_t v = 0; v < grid.size(); ++v)
         if (grid.measured(v) && (grid.vertices_mm[v] - mouth).norm() < 5)
             grid.origin[v] = geometry::VertexOrigin::bridged;
-    const TargetFace target(neutral, modeling::Frame::similarity);
+    const TargetFace target(neutral, modeling::Normalisation::similarity);
     const WeightedExpression weighted{&model, 0.5};
     const auto animated = animate(target, std::span(&weighted, 1));
     const std::vector<NamedMagnitude> names = {{"AU12", 0.5, "mouthSmile"}};
@@ -540,7 +540,7 @@ TEST_F(Animate, morph_targets_hold_the_fields_at_magnitude_one_with_the_name_tha
     const database::TemporaryFolder folder;
     const auto file = folder.path() / "face.glb";
     const auto left = smile({}, "12L"), both = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const std::array expressions = {WeightedExpression{&left, 0.5}, WeightedExpression{&both, 0.25}};
     const auto animated = animate(target, expressions);
     std::vector<NamedMagnitude> names = {{"AU12_L", 0.5, "mouthSmileLeft"}, {"AU12", 0.25, ""}};
@@ -569,7 +569,7 @@ TEST_F(Animate, a_parallel_resultant_is_one_morph_target_and_a_remark_says_so) {
     const database::TemporaryFolder folder;
     const auto file = folder.path() / "face.glb";
     const auto left = smile({}, "12L"), both = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const std::array expressions = {WeightedExpression{&left, 1.0}, WeightedExpression{&both, 1.0}};
     AnimationOptions options;
     options.combination = Combination::parallel;
@@ -589,7 +589,7 @@ TEST_F(Animate, a_picture_beside_the_face_is_not_overwritten_by_its_texture) {
     base::write_atomically(folder.path() / "face.png", "picture");
     io::write_png(folder.path() / "scan.png", {1, 1, {10, 20, 30}});
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     write_animated_face(folder.path() / "face.ply", animated, target, {}, folder.path() / "scan.png");
@@ -602,7 +602,7 @@ TEST_F(Animate, a_texture_that_is_no_picture_is_not_handed_on) {
     const database::TemporaryFolder folder;
     base::write_atomically(folder.path() / "key.png", "a text that is nobody's business");
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Frame::similarity);
+    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     const std::vector<NamedMagnitude> names = {{"AU12", 1.0, ""}};

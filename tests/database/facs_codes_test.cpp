@@ -15,7 +15,7 @@ TEST(FacsCodes, side_unit_and_intensity_are_read) {
     const auto codes = parse_facs_codes("title\r\n\r\nbs003_LFAU_12L_0 -> L12D + 25\r\n", "list");
     ASSERT_EQ(codes.scores.size(), 1U);
     EXPECT_THAT(codes.scores.begin()->second,
-                testing::ElementsAre(FacsScore{12, Side::left, 'D'}, FacsScore{25, Side::both, 0}));
+                testing::ElementsAre(FacsScore{12, facs::Side::left, 'D'}, FacsScore{25, facs::Side::both, 0}));
 }
 
 TEST(FacsCodes, zero_is_a_score_of_nothing) {
@@ -35,7 +35,7 @@ TEST(FacsCodes, an_unknown_code_is_remarked_and_the_others_of_its_scan_are_kept)
     const auto codes = parse_facs_codes("a\nb\nbs000_LFAU_12_0 -> 12D+T23B\nbs000_LFAU_9_0 -> 9B+\n", "list");
     ASSERT_EQ(codes.scores.size(), 2U);
     EXPECT_THAT(codes.scores.at(*parse_scan_name("bs000_LFAU_12_0")),
-                testing::ElementsAre(FacsScore{12, Side::both, 'D'}));
+                testing::ElementsAre(FacsScore{12, facs::Side::both, 'D'}));
     EXPECT_THAT(codes.remarks, testing::ElementsAre(HasSubstr("list: line 3: code 'T23B' of bs000_LFAU_12_0 is no"),
                                                     HasSubstr("list: line 4: code '' of bs000_LFAU_9_0")));
 }
@@ -44,7 +44,7 @@ TEST(FacsCodes, a_scored_scan_in_the_first_lines_is_kept_beside_an_unknown_code)
     const auto codes = parse_facs_codes("bs000_LFAU_12_0 -> 12D+T23B\nbs000_LFAU_9_0 -> 9B\n", "list");
     ASSERT_EQ(codes.scores.size(), 2U);
     EXPECT_THAT(codes.scores.at(*parse_scan_name("bs000_LFAU_12_0")),
-                testing::ElementsAre(FacsScore{12, Side::both, 'D'}));
+                testing::ElementsAre(FacsScore{12, facs::Side::both, 'D'}));
     EXPECT_THAT(codes.remarks, testing::ElementsAre(HasSubstr("list: line 1: code 'T23B' of bs000_LFAU_12_0")));
 }
 

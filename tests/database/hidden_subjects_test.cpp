@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "database/scan_database.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "database/scan_database.h"
 #include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
 
@@ -160,7 +160,7 @@ TEST_F(RefuseHiddenFile, a_link_to_a_hidden_file_is_refused) {
 TEST_F(RefuseHiddenFile, a_manifest_beside_or_below_the_list_says_whose_file_it_is) {
     list("müller\n");
     base::write_atomically(folder_.path() / "manifest.csv",
-                               "subject,expression,scan\nmüller,N,scans/1.ply\nanna,N,scans/2.ply\n");
+                           "subject,expression,scan\nmüller,N,scans/1.ply\nanna,N,scans/2.ply\n");
     EXPECT_THAT(refused("scans/1.ply"), HasSubstr("subject 'müller'"));
     EXPECT_EQ(refused("scans/2.ply"), shown);
     base::write_atomically(folder_.path() / "db/manifest.csv", "subject,expression,scan\nmüller,N,1.ply\n");

@@ -153,9 +153,8 @@ TEST(Manifest, image_and_image_landmarks_beside_a_scan_belong_to_it_and_its_text
     write_scan(folder.path(), "bs000_N_N_0", face);
     const auto files = folder.path() / "bs000";
     std::filesystem::rename(files / "bs000_N_N_0.png", files / "bs000_N_N_0.PNG");
-    base::write_atomically(
-        folder.path() / "manifest.csv",
-        "subject,expression,scan,landmarks\nanna,N,./bs000/bs000_N_N_0.bnt,bs000/bs000_N_N_0.lm3\n");
+    base::write_atomically(folder.path() / "manifest.csv",
+                           "subject,expression,scan,landmarks\nanna,N,./bs000/bs000_N_N_0.bnt,bs000/bs000_N_N_0.lm3\n");
     const auto database = open_database(folder.path());
     const auto& entry = database.scans.at(0);
     EXPECT_EQ(entry.landmarks2d_file.filename(), "bs000_N_N_0.lm2");

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "database/doctor.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "database/doctor.h"
 #include "io/landmark_io.h"
 #include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
@@ -51,8 +51,8 @@ TEST(ScanDatabase, a_scan_whose_texture_name_leads_elsewhere_is_loaded_without_i
     const TemporaryFolder folder;
     const auto at = [&](const char* name) { return folder.path() / name; };
     base::write_atomically(at("a.obj"),
-                               "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.5 0.5\n"
-                               "f 1/1 2/2 3/3\nf 1/1 3/4 2/2\n");
+                           "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.5 0.5\n"
+                           "f 1/1 2/2 3/3\nf 1/1 3/4 2/2\n");
     base::write_atomically(at("a.mtl"), "newmtl x\nmap_Kd C:\\scans\\face.jpg\n");
     base::write_atomically(at("manifest.csv"), "subject,expression,scan\nanna,N,a.obj\n");
     const auto entry = open_database(folder.path()).scans.at(0);
@@ -93,7 +93,7 @@ TEST(ScanDatabase, unallowed_subjects_are_hidden_by_number_or_name) {
     const TemporaryFolder folder;
     for (const char* name : {"bs000_N_N_0", "bs001_N_N_0", "bs002_N_N_0"}) write_scan(folder.path(), name, make_face());
     base::write_atomically(folder.path() / "Unallowed_Subjects.txt",
-                               "# not to be shown: bs002\r\nBS000\r\nbs1, bs077\nnobody\n");
+                           "# not to be shown: bs002\r\nBS000\r\nbs1, bs077\nnobody\n");
     const auto database = open_database(folder.path());
     EXPECT_THAT(database.hidden_subjects, ElementsAre("bs000", "bs001", "bs077"));
     EXPECT_TRUE(database.hidden("BS000"));
@@ -121,12 +121,12 @@ TEST(ScanDatabase, facs_codes_give_intensities_with_the_stronger_side) {
     write_scan(folder.path(), "bs000_LFAU_12_0", make_face());
     write_scan(folder.path(), "bs000_N_N_0", make_face());
     base::write_atomically(folder.path() / "facscodes.lst",
-                               "header\nheader\nbs000_LFAU_12_0 -> 6B+L12C+R12D+25\nbs000_N_N_0 -> 0\n");
+                           "header\nheader\nbs000_LFAU_12_0 -> 6B+L12C+R12D+25\nbs000_N_N_0 -> 0\n");
     const auto database = open_database(folder.path());
     const auto* smile = database.find(*parse_scan_name("bs000_LFAU_12_0"));
     EXPECT_EQ(smile->intensities, (std::map<int, char>{{6, 'B'}, {12, 'D'}, {25, 0}}));
     ASSERT_EQ(smile->facs_scores.size(), 4U);
-    EXPECT_EQ(smile->facs_scores[1], (FacsScore{12, Side::left, 'C'}));
+    EXPECT_EQ(smile->facs_scores[1], (FacsScore{12, facs::Side::left, 'C'}));
     EXPECT_THAT(database.scans[0].intensities, IsEmpty());
 }
 
@@ -155,10 +155,10 @@ TEST_P(OneSided, codes_are_taken_as_the_side_whose_mouth_corner_moves) {
     EXPECT_EQ(names_are_the_viewers ? database.code_sides.other_side : database.code_sides.own_side, 4);
     const auto* left = database.find(*parse_scan_name("bs001_LFAU_12L_0"));
     ASSERT_NE(left, nullptr);
-    EXPECT_EQ(left->id.side(), Side::left);
+    EXPECT_EQ(left->id.side(), facs::Side::left);
     EXPECT_EQ(left->file_name_stem, names_are_the_viewers ? "bs001_LFAU_12R_0" : "bs001_LFAU_12L_0");
     const auto neutral = load(*database.find(*parse_scan_name("bs001_N_N_0"))).landmarks;
-    EXPECT_EQ(decide_side(neutral, load(*left).landmarks).side, Side::left);
+    EXPECT_EQ(decide_side(neutral, load(*left).landmarks).side, facs::Side::left);
 }
 
 INSTANTIATE_TEST_SUITE_P(NamesAreTheSubjectsAndTheViewers, OneSided, testing::Values(false, true));
@@ -226,8 +226,8 @@ TEST(OneSidedCodes, that_nobody_can_decide_are_remarked) {
 TEST(OneSidedCodes, equal_motion_of_both_corners_decides_nothing) {
     const auto neutral = make_face().landmarks;
     const auto smile = moved(neutral, {{"mouth_corner_left", {5, 6, -2}}, {"mouth_corner_right", {-5, 6, -2}}});
-    EXPECT_EQ(decide_side(neutral, smile).side, Side::both);
-    EXPECT_EQ(decide_side(neutral, neutral).side, Side::both);
+    EXPECT_EQ(decide_side(neutral, smile).side, facs::Side::both);
+    EXPECT_EQ(decide_side(neutral, neutral).side, facs::Side::both);
 }
 
 TEST(OneSidedCodes, defaults_are_valid_and_a_bad_option_is_named) {
@@ -244,7 +244,7 @@ TEST(Selecting, goes_by_subject_group_action_unit_and_side) {
     const auto database = open_database(folder.path());
     EXPECT_THAT(names_of(select(database, {.subjects = {"BS001"}})), ElementsAre("bs001_N_N_0"));
     EXPECT_THAT(names_of(select(database, {.groups = {"ufau"}})), ElementsAre("bs000_UFAU_4_0"));
-    EXPECT_THAT(names_of(select(database, {.action_units = {12}, .side = Side::left})),
+    EXPECT_THAT(names_of(select(database, {.action_units = {12}, .side = facs::Side::left})),
                 ElementsAre("bs000_LFAU_12L_0"));
     EXPECT_EQ(select(database, {.action_units = {12, 4}}).size(), 4U);
     EXPECT_EQ(select(database, {}).size(), 6U);
@@ -315,7 +315,7 @@ TEST(Load, two_labels_for_one_point_are_refused_with_the_file) {
     const TemporaryFolder folder;
     write_scan(folder.path(), "bs000_N_N_0", make_face());
     base::write_atomically(folder.path() / "bs000/bs000_N_N_0.lm3",
-                               "# x\n\n2 landmarks:\nNose tip\n0 0 70\nnose  TIP\n0 2 70\n");
+                           "# x\n\n2 landmarks:\nNose tip\n0 0 70\nnose  TIP\n0 2 70\n");
     EXPECT_THAT(message_of<InputError>([&] { (void)load(open_database(folder.path()).scans[0]); }),
                 HasSubstr("bs000_N_N_0.lm3: landmark 'nose_tip' appears twice"));
 }

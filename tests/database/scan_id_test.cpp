@@ -36,11 +36,11 @@ TEST(ScanName, no_name_leads_to_another_folder) {
 TEST(ScanName, action_unit_side_and_intensity_come_from_the_code) {
     const auto left = *parse_scan_name("bs000_LFAU_12L_0");
     EXPECT_EQ(left.action_unit(), 12);
-    EXPECT_EQ(left.side(), Side::left);
-    EXPECT_EQ(parse_scan_name("bs000_LFAU_12R_0")->side(), Side::right);
+    EXPECT_EQ(left.side(), facs::Side::left);
+    EXPECT_EQ(parse_scan_name("bs000_LFAU_12R_0")->side(), facs::Side::right);
     const auto low = *parse_scan_name("bs000_LFAU_12LW_0");
     EXPECT_EQ(low.action_unit(), 12);
-    EXPECT_EQ(low.side(), Side::both);
+    EXPECT_EQ(low.side(), facs::Side::both);
     EXPECT_TRUE(low.low_intensity());
     EXPECT_TRUE(parse_scan_name("bs000_CAU_A26A12lw_0")->low_intensity());
     EXPECT_FALSE(left.low_intensity());
@@ -71,67 +71,6 @@ TEST(ScanName, mirroring_swaps_one_sided_codes_only) {
     EXPECT_EQ(parse_scan_name("bs000_LFAU_12r_0")->mirrored().name(), "bs000_LFAU_12l_0");
     EXPECT_EQ(parse_scan_name("bs000_LFAU_12LW_0")->mirrored().name(), "bs000_LFAU_12LW_0");
     EXPECT_EQ(parse_scan_name("bs000_YR_L90_0")->mirrored().name(), "bs000_YR_L90_0");
-}
-
-TEST(Expression, the_usual_spellings_find_their_group_and_code) {
-    const std::vector<std::pair<std::string, std::string>> spellings = {{"N", "N_N"},
-                                                                        {"neutral", "N_N"},
-                                                                        {"AU12", "LFAU_12"},
-                                                                        {"au12_L", "LFAU_12L"},
-                                                                        {"12L", "LFAU_12L"},
-                                                                        {"12LW", "LFAU_12LW"},
-                                                                        {"AU 4", "UFAU_4"},
-                                                                        {"LFAU_12", "LFAU_12"},
-                                                                        {"HAPPY", "E_HAPPY"},
-                                                                        {"happiness", "E_HAPPY"},
-                                                                        {"A22A25", "CAU_A22A25"},
-                                                                        {"AU22+AU25", "CAU_A22A25"},
-                                                                        {"YR_R10", "YR_R10"},
-                                                                        {"bite lip", "OTHER_BITE-LIP"},
-                                                                        {"E lips\x1d/x", "E_LIPS--X"},
-                                                                        {"A1\nA2", "CAU_A1-A2"},
-                                                                        {"AU01", "UFAU_1"},
-                                                                        {"au04_L", "UFAU_4L"},
-                                                                        {"012", "LFAU_12"},
-                                                                        {"012LW", "LFAU_12LW"},
-                                                                        {"LFAU_012R", "LFAU_12R"},
-                                                                        {"AU01+AU04", "CAU_A1A4"},
-                                                                        {"A01A04", "CAU_A1A4"},
-                                                                        {"CAU_A26A012lw", "CAU_A26A12LW"},
-                                                                        {"YR_R05", "YR_R05"},
-                                                                        {"5", "UFAU_5"}};
-    for (const auto& [text, expected] : spellings) {
-        const auto id = parse_expression(text);
-        ASSERT_TRUE(id) << text;
-        EXPECT_EQ(id->expression(), expected) << text;
-    }
-    EXPECT_FALSE(parse_expression(" _ "));
-}
-
-TEST(Expression, letters_beyond_ascii_are_kept_where_they_are_utf8) {
-    for (const auto& [text, expected] : {std::pair{"E_\u00e9", "E_\u00e9"},
-                                         {"E_\u00fc", "E_\u00fc"},
-                                         {"\u5fae\u7b11", "OTHER_\u5fae\u7b11"},
-                                         {"bite \u00fc!", "OTHER_BITE-\u00fc-"},
-                                         {"E_\xE9", "E_-"},                 // Latin-1
-                                         {"E_\xC0\xAF", "E_--"},            // a '/' in two bytes
-                                         {"E_\xED\xA0\x80", "E_---"},       // half a pair of UTF-16
-                                         {"E_\xF4\x90\x80\x80", "E_----"},  // beyond the last character
-                                         {"E_\xE5\xBE", "E_--"}})           // cut
-        EXPECT_EQ(parse_expression(text)->expression(), expected) << text;
-}
-
-TEST(ActionUnit, groups_are_those_of_the_face) {
-    EXPECT_EQ(group_of_action_unit(4), "UFAU");
-    EXPECT_EQ(group_of_action_unit(43), "UFAU");
-    EXPECT_EQ(group_of_action_unit(9), "LFAU");
-    EXPECT_EQ(group_of_action_unit(34), "LFAU");
-}
-
-TEST(Side, words_are_read_and_an_unknown_one_is_refused_by_name) {
-    EXPECT_EQ(parse_side("Left"), Side::left);
-    EXPECT_EQ(parse_side("r"), Side::right);
-    EXPECT_THAT(message_of<InputError>([] { (void)parse_side("up"); }), testing::HasSubstr("'up'"));
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "evaluation/score_table.h"
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "report/score_table.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_truth.h"
 #include "tests/support/analytic_workspace_files.h"
@@ -50,7 +50,7 @@ protected:
         delete folder_;
     }
     static ExperimentReport run(const Workspace& workspace, const ExperimentOptions& options = smile_options()) {
-        return run_experiment(workspace, modeling::builtin_catalogue(), options);
+        return run_experiment(workspace, facs::builtin_catalogue(), options);
     }
     static const MethodScores& row(const ExperimentReport& report, const std::string& name) {
         for (const auto& candidate : report.rows)
@@ -113,13 +113,13 @@ TEST_F(Experiment, one_and_two_threads_give_the_same_tables) {
     base::set_thread_count(2);
     const auto two = run(*workspace_);
     base::set_thread_count(0);
-    EXPECT_EQ(to_json(one), to_json(two));
-    EXPECT_EQ(to_csv(one), to_csv(two));
-    EXPECT_EQ(to_markdown(one), to_markdown(two));
+    EXPECT_EQ(report::to_json(one), report::to_json(two));
+    EXPECT_EQ(report::to_csv(one), report::to_csv(two));
+    EXPECT_EQ(report::to_markdown(one), report::to_markdown(two));
 }
 
 TEST_F(Experiment, the_tables_hold_what_the_report_holds) {
-    const auto json = nlohmann::json::parse(to_json(*report_));
+    const auto json = nlohmann::json::parse(report::to_json(*report_));
     EXPECT_EQ(json.at("schema"), 1);
     ASSERT_EQ(json.at("rows").size(), 6U);
     const auto& row_json = json.at("rows").at(2);
@@ -128,11 +128,11 @@ TEST_F(Experiment, the_tables_hold_what_the_report_holds) {
     EXPECT_EQ(row_json.at("kind"), "one source");
     EXPECT_EQ(row_json.at("expressions").at("12").at("explained").get<double>(), score.explained);
     EXPECT_EQ(row_json.at("expressions").at("12").at("nothing_true_mm").get<double>(), score.nothing_true_mm);
-    const auto csv = to_csv(*report_);
+    const auto csv = report::to_csv(*report_);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
     EXPECT_THAT(csv, HasSubstr("\"default\",one source,0,12,"));
     EXPECT_THAT(csv, HasSubstr("\"true field, mean\",mean,1,12,"));
-    const auto markdown = to_markdown(*report_);
+    const auto markdown = report::to_markdown(*report_);
     EXPECT_THAT(markdown, HasSubstr("| AU12 |"));
     EXPECT_THAT(markdown, HasSubstr("| doing nothing | |"));
     EXPECT_THAT(markdown, HasSubstr("(distance to the real scan / to the true position of the same skin point):"));
@@ -143,13 +143,13 @@ TEST_F(Experiment, a_whole_face_that_was_not_scored_is_no_figure_in_any_table) {
     auto options = smile_options();
     options.whole_face = false;
     const auto report = run(*workspace_, options);
-    const auto json = nlohmann::json::parse(to_json(report));
+    const auto json = nlohmann::json::parse(report::to_json(report));
     for (const auto& row : json.at("rows")) {
         EXPECT_TRUE(row.at("explained_whole_face").is_null());
         EXPECT_TRUE(row.at("expressions").at("12").at("explained_whole_face").is_null());
         EXPECT_TRUE(row.at("explained").is_number());
     }
-    const auto csv = to_csv(report);
+    const auto csv = report::to_csv(report);
     // Seventh of the columns: after method, kind, reference, expression and two figures.
     std::vector<std::string> fields(1);
     for (const char c : csv.substr(csv.find("\"default\""), csv.find('\n', csv.find("\"default\""))))
@@ -164,16 +164,17 @@ TEST_F(Experiment, a_whole_face_that_was_not_scored_is_no_figure_in_any_table) {
     EXPECT_EQ(fields[6], "");
     EXPECT_NE(fields[7], "");
     // The cell before the share of cases worse than nothing.
-    EXPECT_THAT(to_markdown(report), testing::ContainsRegex("[|] default [|].*[|]  [|] [0-9.]+ % of"));
-    EXPECT_THAT(to_markdown(*report_), testing::Not(testing::ContainsRegex("[|] default [|].*[|]  [|] [0-9.]+ % of")));
+    EXPECT_THAT(report::to_markdown(report), testing::ContainsRegex("[|] default [|].*[|]  [|] [0-9.]+ % of"));
+    EXPECT_THAT(report::to_markdown(*report_),
+                testing::Not(testing::ContainsRegex("[|] default [|].*[|]  [|] [0-9.]+ % of")));
 }
 
 TEST_F(Experiment, a_true_field_has_no_largest_step_in_any_table) {
-    const auto document = nlohmann::json::parse(to_json(*report_));  // the loop would not keep it
+    const auto document = nlohmann::json::parse(report::to_json(*report_));  // the loop would not keep it
     for (const auto& row_json : document.at("rows"))
         EXPECT_EQ(row_json.at("expressions").at("12").at("largest_step_mm").is_null(), row_json.at("reference"))
             << row_json.at("method");
-    const auto csv = to_csv(*report_);
+    const auto csv = report::to_csv(*report_);
     // Of the 15 columns the 12th, before cases, cases worse than nothing and vertices left out.
     EXPECT_THAT(csv, testing::ContainsRegex("\"true field, mean\",.*,,3,[0-9]+,[0-9]+\n"));
     EXPECT_THAT(csv, testing::ContainsRegex("\"mean\",.*,[0-9.]+,3,[0-9]+,[0-9]+\n"));
@@ -191,8 +192,7 @@ TEST_F(Experiment, fewer_sources_are_fewer_cases) {
 
 TEST_F(Experiment, progress_is_told_as_often_as_was_said) {
     std::atomic<std::size_t> told = 0;
-    (void)run_experiment(*workspace_, modeling::builtin_catalogue(), smile_options(),
-                         [&](const std::string&) { ++told; });
+    (void)run_experiment(*workspace_, facs::builtin_catalogue(), smile_options(), [&](const std::string&) { ++told; });
     EXPECT_EQ(told, experiment_steps(*workspace_, smile_options()));
     EXPECT_EQ(told, 3U);
 }
@@ -213,7 +213,7 @@ TEST_F(Experiment, the_estimate_counts_the_cases_that_are_scored) {
 TEST_F(Experiment, what_cannot_be_scored_is_refused_by_name_before_any_work) {
     auto options = smile_options();
     options.expressions = {"12", "17"};
-    EXPECT_THROW(check_experiment(*workspace_, modeling::builtin_catalogue(), options), InputError);
+    EXPECT_THROW(check_experiment(*workspace_, facs::builtin_catalogue(), options), InputError);
     EXPECT_THAT(message_of<InputError>([&] { (void)run(*workspace_, options); }),
                 HasSubstr("expression '17': 0 subjects show it"));
     options.expressions = {"12", "12"};
@@ -252,17 +252,17 @@ TEST_F(Experiment, a_damaged_face_and_a_hidden_subject_take_no_part_and_the_rest
     EXPECT_GT(score.explained, 0.1);
     ASSERT_EQ(report.failures.size(), 1U);
     EXPECT_THAT(report.failures[0], HasSubstr("bs001_LFAU_12_0: takes part in no case"));
-    EXPECT_THAT(to_markdown(report), HasSubstr("1 failure(s)"));
+    EXPECT_THAT(report::to_markdown(report), HasSubstr("1 failure(s)"));
     // One number per cell, and the heading promises no other.
-    EXPECT_THAT(to_markdown(report), HasSubstr("Mean error in mm (distance to the real scan):"));
-    EXPECT_TRUE(nlohmann::json::parse(to_json(report))
+    EXPECT_THAT(report::to_markdown(report), HasSubstr("Mean error in mm (distance to the real scan):"));
+    EXPECT_TRUE(nlohmann::json::parse(report::to_json(report))
                     .at("rows")
                     .at(0)
                     .at("expressions")
                     .at("12")
                     .at("true_error_mm")
                     .is_null());
-    for (const auto& text : {to_markdown(report), to_csv(report), to_json(report)})
+    for (const auto& text : {report::to_markdown(report), report::to_csv(report), report::to_json(report)})
         EXPECT_THAT(text, testing::Not(HasSubstr("bs003")));
 }
 
@@ -274,7 +274,7 @@ TEST_F(Experiment, whose_truth_is_gone_is_refused_by_its_place_and_not_scored_in
     const auto missing = (folder.path() / "db" / "truth" / "truth.json").string();
     EXPECT_THAT(message_of<InputError>([&] { (void)run(workspace); }), HasSubstr(missing + ": is not there"));
     EXPECT_THAT(
-        message_of<InputError>([&] { check_experiment(workspace, modeling::builtin_catalogue(), smile_options()); }),
+        message_of<InputError>([&] { check_experiment(workspace, facs::builtin_catalogue(), smile_options()); }),
         HasSubstr("mimik preprocess DB -o"));
 }
 

@@ -64,7 +64,7 @@ TEST_F(Cast, of_more_than_one_batch_is_in_the_order_of_the_scans) {
     std::vector<database::ScanId> scans;
     for (int k = 0; k < 20; ++k) scans.push_back(smile(k % 3));
     FailureList failures;
-    const auto cast = gather_cast(reader, modeling::builtin_catalogue(), "12", scans, methods, true, failures);
+    const auto cast = gather_cast(reader, facs::builtin_catalogue(), "12", scans, methods, true, failures);
     EXPECT_TRUE(failures.sorted().empty());
     ASSERT_EQ(cast.participants.size(), scans.size());
     EXPECT_EQ(cast.true_fields.held(), scans.size());
@@ -90,7 +90,7 @@ TEST(CastOfEmotion, has_the_zones_of_its_units_beside_its_own) {
         auto truth = test::analytic_truth(name, shape, test::analytic_pose(k));
         for (std::size_t v = 0; v < truth.vertices_mm.size(); ++v)
             if ((truth.scanner_from_head.inverse() * truth.vertices_mm[v]).x() < 0) truth.displacement_mm[v].setZero();
-        synthesis::write_true_scan(db / "truth", truth);
+        database::write_true_scan(db / "truth", truth);
         document["scans"].push_back(name);
     }
     base::write_atomically(db / "truth" / "truth.json", document.dump());
@@ -100,11 +100,11 @@ TEST(CastOfEmotion, has_the_zones_of_its_units_beside_its_own) {
     const auto zone_of = [&](const std::string& expression) {
         std::vector<database::ScanId> scans;
         for (const auto& subject : workspace.subjects()) scans.push_back(*workspace.expression(subject, expression));
-        return gather_cast(reader, modeling::builtin_catalogue(), expression, scans, {}, false, failures).zone.active;
+        return gather_cast(reader, facs::builtin_catalogue(), expression, scans, {}, false, failures).zone.active;
     };
     const auto happy = zone_of("HAPPY"), smile = zone_of("12");
     const auto& average = workspace.average();
-    const auto cheeks = active_zone_from_catalogue("6", average, modeling::builtin_catalogue()).active;
+    const auto cheeks = active_zone_from_catalogue("6", average, facs::builtin_catalogue()).active;
     ASSERT_EQ(happy.size(), smile.size());
     std::size_t only_smile = 0, only_cheeks = 0;
     for (std::size_t v = 0; v < happy.size(); ++v) {
@@ -122,8 +122,7 @@ TEST_F(Cast, without_true_fields_wanted_holds_none) {
     FailureList failures;
     const PerformanceReader reader(*workspace_);
     const std::vector<database::ScanId> scans = {smile(0), smile(1)};
-    EXPECT_EQ(gather_cast(reader, modeling::builtin_catalogue(), "12", scans, {}, false, failures).true_fields.held(),
-              0U);
+    EXPECT_EQ(gather_cast(reader, facs::builtin_catalogue(), "12", scans, {}, false, failures).true_fields.held(), 0U);
 }
 
 }  // namespace

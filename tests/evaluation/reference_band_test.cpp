@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "evaluation/score_table.h"
+#include "report/score_table.h"
 
 namespace mimik::evaluation {
 namespace {
@@ -43,10 +43,10 @@ TEST(ReferenceBand, of_a_database_like_the_first_one_is_met_by_both_true_fields)
     EXPECT_EQ(bands[1].explained, 0.600);
     EXPECT_TRUE(bands[0].inside() && bands[1].inside());
     EXPECT_THAT(
-        to_markdown(report),
+        report::to_markdown(report),
         HasSubstr("\nFit to be scored on: yes. True field from one source 0.468 (band 0.41 to 0.53), mean 0.600 "
                   "(band 0.55 to 0.65).\n"));
-    const auto document = json::parse(to_json(report));
+    const auto document = json::parse(report::to_json(report));
     EXPECT_EQ(document.at("fit"), true);
     EXPECT_EQ(document.at("reference_bands").at(1),
               (json{{"kind", "mean"}, {"explained", 0.6}, {"low", 0.55}, {"high", 0.65}, {"inside", true}}));
@@ -56,8 +56,8 @@ TEST(ReferenceBand, of_a_database_like_the_first_one_is_met_by_both_true_fields)
 
 TEST(ReferenceBand, that_one_true_field_misses_makes_the_database_unfit) {
     const auto report = report_of(0.54, 0.600, 13);
-    EXPECT_THAT(to_markdown(report), HasSubstr("Fit to be scored on: no."));
-    EXPECT_EQ(json::parse(to_json(report)).at("fit"), false);
+    EXPECT_THAT(report::to_markdown(report), HasSubstr("Fit to be scored on: no."));
+    EXPECT_EQ(json::parse(report::to_json(report)).at("fit"), false);
 }
 
 TEST(ReferenceBand, verdict_and_number_agree_however_near_the_limit_the_number_is) {
@@ -73,8 +73,8 @@ TEST(ReferenceBand, verdict_and_number_agree_however_near_the_limit_the_number_i
     };
     for (const auto& [one, mean, words] : cases) {
         const auto report = report_of(one, mean, 13);
-        EXPECT_THAT(to_markdown(report), HasSubstr(std::string("Fit to be scored on: ") + words));
-        const auto document = json::parse(to_json(report));
+        EXPECT_THAT(report::to_markdown(report), HasSubstr(std::string("Fit to be scored on: ") + words));
+        const auto document = json::parse(report::to_json(report));
         EXPECT_EQ(document.at("fit"), words[0] == 'y');
         for (const auto& band : document.at("reference_bands"))
             EXPECT_EQ(band.at("inside"),
@@ -84,7 +84,7 @@ TEST(ReferenceBand, verdict_and_number_agree_however_near_the_limit_the_number_i
 
 TEST(ReferenceBand, is_not_known_for_a_mean_of_few_for_other_expressions_or_without_a_truth) {
     EXPECT_EQ(reference_bands(report_of(0.45, 0.3, 10)).size(), 1U);
-    EXPECT_EQ(json::parse(to_json(report_of(0.45, 0.3, 10))).at("fit"), true);  // by the one that is known
+    EXPECT_EQ(json::parse(report::to_json(report_of(0.45, 0.3, 10))).at("fit"), true);  // by the one that is known
     EXPECT_EQ(reference_bands(report_of(0.45, 0.6, 11)).size(), 2U);
 
     auto fewer = report_of(0.468, 0.600, 13), without = fewer;
@@ -94,10 +94,10 @@ TEST(ReferenceBand, is_not_known_for_a_mean_of_few_for_other_expressions_or_with
     without.truth.reset();
     for (const auto& report : {fewer, without}) {
         EXPECT_TRUE(reference_bands(report).empty());
-        EXPECT_THAT(to_markdown(report), Not(HasSubstr("Fit to be scored on")));
-        EXPECT_TRUE(json::parse(to_json(report)).at("fit").is_null());
+        EXPECT_THAT(report::to_markdown(report), Not(HasSubstr("Fit to be scored on")));
+        EXPECT_TRUE(json::parse(report::to_json(report)).at("fit").is_null());
     }
-    EXPECT_TRUE(json::parse(to_json(without)).at("truth").is_null());
+    EXPECT_TRUE(json::parse(report::to_json(without)).at("truth").is_null());
 }
 
 }  // namespace

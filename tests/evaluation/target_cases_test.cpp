@@ -69,7 +69,7 @@ protected:
         for (const auto& subject : workspace_->subjects()) scans_.push_back(*workspace_->expression(subject, "12"));
     }
     [[nodiscard]] ExpressionCast cast(const std::vector<Method>& methods) {
-        auto held = gather_cast(*reader_, modeling::builtin_catalogue(), "12", scans_, methods, false, failures_);
+        auto held = gather_cast(*reader_, facs::builtin_catalogue(), "12", scans_, methods, false, failures_);
         ExpressionCast cast{held.expression, std::move(held.participants), std::move(held.zone),
                             TrueFields(*reader_, 0)};
         for (const auto& scan : scans_) cast.true_fields.add(scan, TrueFields::Field(1));  // no room: not held
@@ -144,7 +144,7 @@ TEST(ScoreTargetWithoutTruth, a_scan_that_was_aligned_beside_its_neutral_is_no_t
     const std::vector<database::ScanId> scans = {*workspace.expression("bs000", "12"), smiling.id};
     const std::vector<Method> methods = {method_by_name("default")};
     FailureList failures;
-    const auto cast = gather_cast(reader, modeling::builtin_catalogue(), "12", scans, methods, false, failures);
+    const auto cast = gather_cast(reader, facs::builtin_catalogue(), "12", scans, methods, false, failures);
     const auto cases = score_target(reader, cast, 1, {methods, false, true, 0}, failures);
     EXPECT_THAT(cases.methods, ElementsAre(testing::IsEmpty()));
     EXPECT_THAT(failures.sorted(), testing::Contains(HasSubstr("no case with target bs001")));

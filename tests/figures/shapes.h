@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "figures/figure.h"
 #include "base/errors.h"
+#include "figures/figure.h"
 
 /// Skips a test that draws where the machine cannot draw at all, and says why.
 #define SKIP_WITHOUT_RENDERER()                \

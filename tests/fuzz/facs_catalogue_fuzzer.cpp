@@ -2,13 +2,13 @@
 #include <cmath>
 #include <set>
 
-#include "modeling/facs_catalogue.h"
+#include "facs/facs_catalogue.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {
 namespace {
 
-void check_sound(const modeling::FacsCatalogue& catalogue) {
+void check_sound(const facs::FacsCatalogue& catalogue) {
     std::set<int> numbers;
     for (const auto& unit : catalogue.units()) {
         require(unit.number >= 1 && unit.number <= 99 && numbers.insert(unit.number).second, "AUs have own numbers");
@@ -31,13 +31,13 @@ void check_sound(const modeling::FacsCatalogue& catalogue) {
 
 void fuzz_one(std::span<const std::uint8_t> bytes) {
     const std::string text(text_of(bytes));
-    const auto findings = modeling::lint_catalogue(text);
+    const auto findings = facs::lint_catalogue(text);
     require(findings.size() <= 1001, "findings do not grow with the file");
     const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
     for (const auto& finding : findings) require(finding.line <= lines, "a finding names a line of the file");
     const bool wrong = std::any_of(findings.begin(), findings.end(), [](const auto& finding) { return finding.error; });
     try {
-        check_sound(modeling::parse_catalogue(text, "input"));
+        check_sound(facs::parse_catalogue(text, "input"));
         require(!wrong, "what the linter calls an error is refused");
     } catch (const InputError&) {
         require(wrong, "what is refused, the linter calls an error");

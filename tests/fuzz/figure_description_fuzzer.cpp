@@ -1,4 +1,4 @@
-#include "figures/figure_description.h"
+#include "report/figure_description.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {
@@ -7,16 +7,16 @@ namespace mimik::fuzzing {
 void fuzz_one(std::span<const std::uint8_t> bytes) {
     const auto text = text_of(bytes);
     if (text.starts_with('c')) {
-        for (const auto& set : figures::decode_controls(text.substr(1), "input", io::LengthUnit::centimetre))
+        for (const auto& set : report::decode_controls(text.substr(1), "input", io::LengthUnit::centimetre))
             for (const auto& p : set.positions_mm) require(p.allFinite(), "control points are finite");
         return;
     }
     if (text.starts_with('a')) {
-        for (const auto& arrow : figures::decode_arrows(text.substr(1), "input", io::LengthUnit::metre).arrows)
+        for (const auto& arrow : report::decode_arrows(text.substr(1), "input", io::LengthUnit::metre).arrows)
             require(arrow.from_mm.allFinite() && arrow.to_mm.allFinite(), "arrows are finite");
         return;
     }
-    const auto description = figures::decode_figure_description(std::string(text), "input", "folder");
+    const auto description = report::decode_figure_description(std::string(text), "input", "folder");
     for (const auto& panel : description.panels)
         require(panel.mesh.empty() || panel.mesh.is_absolute() || panel.mesh.string().starts_with("folder"),
                 "paths start at the description's folder");

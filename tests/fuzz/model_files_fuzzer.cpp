@@ -51,11 +51,11 @@ std::vector<std::string> seeds() {
     model.sources = {"bs000_N_N_0", "bs000_LFAU_12L_0"};
     model.landmarks = geometry::Landmarks({{"nose_tip", {0, 0.25, 0}, "Nose tip"}, {"chin", {0, -60, -20}, ""}});
     model.mouth_width_mm = 50;
-    model.points = {{"corner_left", modeling::ControlKind::muscle, {25, -40, -30}, {2, 4, -1}, 0.5},
-                    {"anchor 1", modeling::ControlKind::anchor, {50, 40, -40}, {0, 0, 0}, 0}};
+    model.points = {{"corner_left", facs::ControlKind::muscle, {25, -40, -30}, {2, 4, -1}, 0.5},
+                    {"anchor 1", facs::ControlKind::anchor, {50, 40, -40}, {0, 0, 0}, 0}};
     model.left_out = {"point 'x' is off the face"};
     auto affine = model;
-    affine.frame = modeling::Frame::affine;
+    affine.frame = modeling::Normalisation::affine;
     affine.points.pop_back();
     return {modeling::encode_expression_model(model), modeling::encode_expression_model(affine),
             "rrow,col,region\n0,0,nose\n0,1,nose\n3,4,cheek_left\n", "rregion,col,row\r\n\"my \"\"a\"\", b\",4,1e0\r\n",

@@ -6,8 +6,7 @@
 namespace mimik::fuzzing {
 
 void fuzz_one(std::span<const std::uint8_t> bytes) {
-    const auto name =
-        io::checked_texture_path(io::formats::texture_of_material(text_of(bytes), "input"), "input");
+    const auto name = io::checked_texture_path(io::formats::texture_of_material(text_of(bytes), "input"), "input");
     require(name.find_first_of("\\:\n") == std::string::npos && !name.starts_with('/') &&
                 ("/" + name + "/").find("/../") == std::string::npos,
             "a texture stays in its folder or below");

@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "base/text.h"
 #include "database/hidden_subjects.h"
 #include "database/manifest.h"
-#include "base/text.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {

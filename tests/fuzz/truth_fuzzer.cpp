@@ -1,4 +1,4 @@
-#include "synthesis/truth.h"
+#include "database/truth.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {
@@ -7,7 +7,7 @@ namespace {
 bool no_path(const database::ScanId& id) { return id.name().find_first_of("/\\") == std::string::npos; }
 
 void truth_of_one_scan(std::string_view text) {
-    const auto scan = synthesis::decode_true_scan(text, "input");
+    const auto scan = database::decode_true_scan(text, "input");
     require(no_path(scan.id), "a scan's name leads to no other folder");
     require((scan.scanner_from_head.inverse().matrix() * scan.scanner_from_head.matrix()).allFinite(),
             "a pose can be undone");
@@ -20,7 +20,7 @@ void truth_of_one_scan(std::string_view text) {
 void fuzz_one(std::span<const std::uint8_t> bytes) {
     const auto text = text_of(bytes);
     if (text.starts_with('s')) return truth_of_one_scan(text.substr(1));
-    const auto truth = synthesis::decode_truth(text, "input");
+    const auto truth = database::decode_truth(text, "input");
     const auto vertices = truth.vertex_regions.size();
     require(vertices <= 2'000'000, "the number of vertices is bounded");
     for (const auto corner : truth.faces.corners) require(corner < vertices, "corners are vertices");

@@ -71,7 +71,7 @@ TEST_F(Warp, of_a_csv_keeps_names_and_order_and_writes_every_digit) {
     std::vector<Landmark> moved(a.all().begin(), a.all().end());
     moved[8].position_mm.x() = 3;
     // To the last bit: 17 digits lose nothing.
-    EXPECT_EQ(out.points[1], fit_landmark_spline(a, Landmarks(moved))(Point(0.1, 0.2, 0.3)));
+    EXPECT_EQ(out.points[1], geometry::landmark_spline(a, Landmarks(moved))(Point(0.1, 0.2, 0.3)));
 }
 
 TEST_F(Warp, of_a_mesh_keeps_faces_and_texture_coordinates) {
@@ -160,7 +160,7 @@ TEST_F(Warp, works_in_any_unit_as_coordinates_are_given) {
             from.push_back({std::to_string(i), p, ""});
             to.push_back({std::to_string(i), 2 * p, ""});
         }
-        const auto spline = fit_landmark_spline(Landmarks(from), Landmarks(to));
+        const auto spline = geometry::landmark_spline(Landmarks(from), Landmarks(to));
         EXPECT_LT((spline(unit * Point(3, 4, 5)) - unit * Point(6, 8, 10)).norm(), 1e-12 * unit);
     }
 }
@@ -177,12 +177,13 @@ TEST_F(Warp, coplanar_landmarks_and_formats_that_cannot_be_written_are_refused) 
                 HasSubstr("out.xyz"));
 }
 
-TEST(WarpOptions, defaults_are_valid_and_bad_values_are_refused_by_field) {
-    EXPECT_NO_THROW(WarpOptions{}.check());
-    EXPECT_THAT(message_of<InputError>([] { WarpOptions{.smoothing = -1}.check(); }), HasSubstr("smoothing is -1"));
-    EXPECT_THAT(message_of<InputError>([] { WarpOptions{.min_separation_ratio = 1}.check(); }),
+TEST(ThinPlateSplineOptions, defaults_are_valid_and_bad_values_are_refused_by_field) {
+    EXPECT_NO_THROW(geometry::ThinPlateSplineOptions{}.check());
+    EXPECT_THAT(message_of<InputError>([] { geometry::ThinPlateSplineOptions{.smoothing = -1}.check(); }),
+                HasSubstr("smoothing is -1"));
+    EXPECT_THAT(message_of<InputError>([] { geometry::ThinPlateSplineOptions{.min_separation_ratio = 1}.check(); }),
                 HasSubstr("min_separation_ratio is 1"));
-    EXPECT_THAT(message_of<InputError>([] { WarpOptions{.min_thickness_ratio = -1}.check(); }),
+    EXPECT_THAT(message_of<InputError>([] { geometry::ThinPlateSplineOptions{.min_thickness_ratio = -1}.check(); }),
                 HasSubstr("min_thickness_ratio is -1"));
 }
 

@@ -9,12 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
-#include "modeling/reference_face.h"
+#include "facs/reference_face.h"
 
 namespace mimik::modeling {
 namespace {
 
-using database::Side;
+using facs::Side;
 using geometry::Point;
 using testing::HasSubstr;
 
@@ -43,27 +43,28 @@ const ControlPoint* find(const std::vector<ControlPoint>& points, const std::str
     return it == points.end() ? nullptr : &*it;
 }
 
-TEST(Placement, of_a_landmark_is_that_landmark_on_the_side_asked_for) {
-    const Placement corner{{{"mouth_corner", 1.0}}, 0, 0};
-    EXPECT_EQ(place(corner, reference_landmarks(), Side::left), reference_landmarks().position_mm("mouth_corner_left"));
-    EXPECT_EQ(place(corner, reference_landmarks(), Side::right),
-              reference_landmarks().position_mm("mouth_corner_right"));
+TEST(facs::Placement, of_a_landmark_is_that_landmark_on_the_side_asked_for) {
+    const facs::Placement corner{{{"mouth_corner", 1.0}}, 0, 0};
+    EXPECT_EQ(facs::place(corner, facs::reference_landmarks(), Side::left),
+              facs::reference_landmarks().position_mm("mouth_corner_left"));
+    EXPECT_EQ(facs::place(corner, facs::reference_landmarks(), Side::right),
+              facs::reference_landmarks().position_mm("mouth_corner_right"));
 }
 
-TEST(Placement, offsets_are_outer_eye_distances_away_from_the_midline) {
-    const Placement beside{{{"mouth_corner", 1.0}}, 0.1, -0.2};
+TEST(facs::Placement, offsets_are_outer_eye_distances_away_from_the_midline) {
+    const facs::Placement beside{{{"mouth_corner", 1.0}}, 0.1, -0.2};
     const double unit = 89.0;  // of the reference face: eye corners at -44.5 and 44.5 mm, same height and depth
-    const auto left = place(beside, reference_landmarks(), Side::left),
-               right = place(beside, reference_landmarks(), Side::right);
+    const auto left = facs::place(beside, facs::reference_landmarks(), Side::left),
+               right = facs::place(beside, facs::reference_landmarks(), Side::right);
     EXPECT_NEAR(left.x(), 25.5 + 0.1 * unit, 1e-9);
     EXPECT_NEAR(right.x(), -25.5 - 0.1 * unit, 1e-9);
     EXPECT_NEAR(left.y(), -39 - 0.2 * unit, 1e-9);
 }
 
-TEST(Placement, misses_no_landmark_in_silence) {
+TEST(facs::Placement, misses_no_landmark_in_silence) {
     const geometry::Landmarks few({{"eye_outer_left", {44, 0, 0}, ""}, {"eye_outer_right", {-44, 0, 0}, ""}});
     try {
-        (void)place({{{"chin", 1.0}}, 0, 0}, few, Side::left);
+        (void)facs::place({{{"chin", 1.0}}, 0, 0}, few, Side::left);
         FAIL() << "placed";
     } catch (const InputError& e) {
         EXPECT_THAT(e.what(), HasSubstr("chin"));
@@ -72,9 +73,9 @@ TEST(Placement, misses_no_landmark_in_silence) {
 
 TEST(ControlPoints, of_every_unit_lie_on_the_surface_and_apart) {
     const auto surface = bowl();
-    for (const auto& unit : builtin_catalogue().units()) {
-        const auto placed =
-            place_controls(builtin_catalogue(), std::to_string(unit.number), reference_landmarks(), surface);
+    for (const auto& unit : facs::builtin_catalogue().units()) {
+        const auto placed = place_controls(facs::builtin_catalogue(), std::to_string(unit.number),
+                                           facs::reference_landmarks(), surface);
         EXPECT_GE(placed.controls.size(), 12U) << unit.number;
         std::vector<ControlPoint> all = placed.controls;
         all.insert(all.end(), placed.anchors.begin(), placed.anchors.end());
@@ -89,9 +90,9 @@ TEST(ControlPoints, of_every_unit_lie_on_the_surface_and_apart) {
 
 TEST(ControlPoints, are_symmetric_on_a_symmetric_face) {
     const auto surface = bowl();
-    for (const auto& unit : builtin_catalogue().units()) {
-        const auto placed =
-            place_controls(builtin_catalogue(), std::to_string(unit.number), reference_landmarks(), surface);
+    for (const auto& unit : facs::builtin_catalogue().units()) {
+        const auto placed = place_controls(facs::builtin_catalogue(), std::to_string(unit.number),
+                                           facs::reference_landmarks(), surface);
         for (const auto* list : {&placed.controls, &placed.anchors})
             for (const auto& point : *list) {
                 const Point image(-point.position_mm.x(), point.position_mm.y(), point.position_mm.z());
@@ -104,12 +105,12 @@ TEST(ControlPoints, are_symmetric_on_a_symmetric_face) {
 }
 
 TEST(ControlPoints, of_one_side_stay_on_that_side_and_hold_the_other_still) {
-    const auto placed = place_controls(builtin_catalogue(), "12L", reference_landmarks(), bowl());
+    const auto placed = place_controls(facs::builtin_catalogue(), "12L", facs::reference_landmarks(), bowl());
     EXPECT_NE(find(placed.controls, "AU12.mouth_corner_left"), nullptr);
     EXPECT_EQ(find(placed.controls, "AU12.mouth_corner_right"), nullptr);
     for (const auto& point : placed.controls)  // the zone of one half may reach a little over the midline
         EXPECT_GT(point.position_mm.x(), -12.0) << point.name;
-    const auto right_corner = reference_landmarks().position_mm("mouth_corner_right");
+    const auto right_corner = facs::reference_landmarks().position_mm("mouth_corner_right");
     EXPECT_TRUE(std::any_of(placed.anchors.begin(), placed.anchors.end(), [&](const auto& anchor) {
         // Anchors stand 0.20 eye distances apart on a triangular lattice: none of its holes is wider than 18 mm.
         return (anchor.position_mm - right_corner).template head<2>().norm() < 18.0;
@@ -117,23 +118,24 @@ TEST(ControlPoints, of_one_side_stay_on_that_side_and_hold_the_other_still) {
 }
 
 TEST(ControlPoints, anchors_stand_outside_the_zone_by_the_margin) {
-    const auto placed = place_controls(builtin_catalogue(), "15", reference_landmarks(), bowl());
-    const ExpressionZone zone(builtin_catalogue(), "15", reference_landmarks());
+    const auto placed = place_controls(facs::builtin_catalogue(), "15", facs::reference_landmarks(), bowl());
+    const facs::ExpressionZone zone(facs::builtin_catalogue(), "15", facs::reference_landmarks());
     EXPECT_GT(placed.anchors.size(), 20U);
     for (const auto& anchor : placed.anchors)
-        EXPECT_GE(zone.distance(anchor.position_mm), builtin_catalogue().sampling().anchor_margin - 1e-9)
+        EXPECT_GE(zone.distance(anchor.position_mm), facs::builtin_catalogue().sampling().anchor_margin - 1e-9)
             << anchor.name;
 }
 
 TEST(ControlPoints, of_the_thesis_number_12_to_26_for_each_of_its_units) {
     for (const int number : {1, 2, 4, 12, 14, 15, 17, 20}) {
-        const auto placed = place_controls(builtin_catalogue(), std::to_string(number), reference_landmarks(), bowl());
+        const auto placed =
+            place_controls(facs::builtin_catalogue(), std::to_string(number), facs::reference_landmarks(), bowl());
         const auto anatomical = std::count_if(placed.controls.begin(), placed.controls.end(),
-                                              [](const auto& p) { return p.kind != ControlKind::coverage; });
+                                              [](const auto& p) { return p.kind != facs::ControlKind::coverage; });
         EXPECT_GE(anatomical, 12) << number;
         EXPECT_LE(anatomical, 26) << number;
         EXPECT_TRUE(std::any_of(placed.controls.begin(), placed.controls.end(), [](const auto& p) {
-            return p.kind == ControlKind::wrinkle;
+            return p.kind == facs::ControlKind::wrinkle;
         })) << number;
     }
 }
@@ -148,14 +150,15 @@ geometry::SurfaceIndex flat_scan(double low_mm) {
 
 TEST(ControlPoints, off_the_surface_are_left_out_by_name) {
     // A scan that ends at the mouth corners' height: what lies below is not there to be moved.
-    const auto placed = place_controls(builtin_catalogue(), "15", reference_landmarks(), flat_scan(-35.0));
+    const auto placed = place_controls(facs::builtin_catalogue(), "15", facs::reference_landmarks(), flat_scan(-35.0));
     EXPECT_THAT(placed.left_out, testing::Contains("AU15.triangularis_low_left: off the face"));
 }
 
 TEST(ControlPoints, of_the_coverage_are_counted_and_only_where_most_meet_no_surface) {
     const auto notes = [](double low_mm, const PlacedKinds& kinds) {
         auto left_out =
-            place_controls(builtin_catalogue(), "15", reference_landmarks(), flat_scan(low_mm), kinds).left_out;
+            place_controls(facs::builtin_catalogue(), "15", facs::reference_landmarks(), flat_scan(low_mm), kinds)
+                .left_out;
         std::erase_if(left_out, [](const std::string& note) { return note.find("coverage") == std::string::npos; });
         return left_out;
     };
@@ -169,23 +172,23 @@ TEST(ControlPoints, of_the_coverage_are_counted_and_only_where_most_meet_no_surf
 
 TEST(ControlPoints, of_a_kind_that_is_not_wanted_are_not_placed_and_the_others_stay_where_they_were) {
     const auto surface = bowl();
-    const auto all = place_controls(builtin_catalogue(), "12", reference_landmarks(), surface);
-    const auto few = place_controls(builtin_catalogue(), "12", reference_landmarks(), surface,
+    const auto all = place_controls(facs::builtin_catalogue(), "12", facs::reference_landmarks(), surface);
+    const auto few = place_controls(facs::builtin_catalogue(), "12", facs::reference_landmarks(), surface,
                                     {.coverage = false, .anchors = false});
     EXPECT_THAT(few.anchors, testing::IsEmpty());
     ASSERT_LT(few.controls.size(), all.controls.size());
     for (std::size_t k = 0; k < few.controls.size(); ++k) {
-        EXPECT_NE(few.controls[k].kind, ControlKind::coverage);
+        EXPECT_NE(few.controls[k].kind, facs::ControlKind::coverage);
         EXPECT_EQ(few.controls[k].name, all.controls[k].name);
         EXPECT_EQ(few.controls[k].position_mm, all.controls[k].position_mm);
     }
-    EXPECT_EQ(all.controls[few.controls.size()].kind, ControlKind::coverage);
+    EXPECT_EQ(all.controls[few.controls.size()].kind, facs::ControlKind::coverage);
 }
 
-TEST(ExpressionZone, holds_the_part_that_moves_and_not_the_rest) {
+TEST(facs::ExpressionZone, holds_the_part_that_moves_and_not_the_rest) {
     const auto inside = [](const std::string& code, const std::string& mark) {
-        return ExpressionZone(builtin_catalogue(), code, reference_landmarks())
-                   .distance(reference_landmarks().position_mm(mark)) <= 0;
+        return facs::ExpressionZone(facs::builtin_catalogue(), code, facs::reference_landmarks())
+                   .distance(facs::reference_landmarks().position_mm(mark)) <= 0;
     };
     EXPECT_TRUE(inside("12", "mouth_corner_left"));
     EXPECT_TRUE(inside("12", "mouth_corner_right"));

@@ -33,7 +33,8 @@ protected:
     }
     static ExpressionModel measure(const test::AnalyticSubject& subject, const ModelOptions& options = {},
                                    const std::string& code = "12") {
-        return measure_expression(builtin_catalogue(), code, *average_, subject.neutral, subject.smiling, options);
+        return measure_expression(facs::builtin_catalogue(), code, *average_, subject.neutral, subject.smiling,
+                                  options);
     }
     static const ModelPoint& point(const ExpressionModel& model, const std::string& part) {
         for (const auto& candidate : model.points)
@@ -57,7 +58,7 @@ TEST_F(ExpressionModelTest, a_smile_is_measured_as_the_closed_form_has_it_where_
         preprocessing::similarity_normalisation(test::AnalyticFace{}.landmarks(), average_->landmarks);
     std::size_t near_a_mark = 0;
     for (const auto& control : model.points) {
-        if (control.kind == ControlKind::anchor) continue;
+        if (control.kind == facs::ControlKind::anchor) continue;
         const Point at = average_from_head.inverse() * control.position_mm;
         // In plane, a smooth face says little of where its points went: only at the marked mouth corners is the answer
         // known to the method. There the spline passes through the mark (5.8 mm away), and 3 mm off it the true shift
@@ -73,7 +74,8 @@ TEST_F(ExpressionModelTest, a_smile_is_measured_as_the_closed_form_has_it_where_
 }
 
 TEST_F(ExpressionModelTest, a_face_that_does_nothing_has_no_displacement) {
-    const auto model = measure_expression(builtin_catalogue(), "12", *average_, source_->neutral, source_->neutral, {});
+    const auto model =
+        measure_expression(facs::builtin_catalogue(), "12", *average_, source_->neutral, source_->neutral, {});
     EXPECT_GT(model.points.size(), 20U);
     // Equal landmarks: the spline is the identity up to rounding, and every point already lies on the surface.
     EXPECT_LT(model.largest_displacement_mm(), 1e-6);
@@ -83,14 +85,14 @@ TEST_F(ExpressionModelTest, anchors_hold_still_exactly_and_come_only_when_asked_
     const auto with = measure(*source_);
     std::size_t anchors = 0;
     for (const auto& control : with.points)
-        if (control.kind == ControlKind::anchor) {
+        if (control.kind == facs::ControlKind::anchor) {
             ++anchors;
             EXPECT_EQ(control.displacement_mm, Vector::Zero()) << control.name;
         }
     EXPECT_GT(anchors, 10U);
     ModelOptions options;
     options.anchors = false;
-    for (const auto& control : measure(*source_, options).points) EXPECT_NE(control.kind, ControlKind::anchor);
+    for (const auto& control : measure(*source_, options).points) EXPECT_NE(control.kind, facs::ControlKind::anchor);
 }
 
 TEST_F(ExpressionModelTest, a_unit_whose_zone_lies_across_the_border_moves_both_halves_if_anchors_hold_the_rest) {
@@ -101,7 +103,7 @@ TEST_F(ExpressionModelTest, a_unit_whose_zone_lies_across_the_border_moves_both_
     // Cheek raiser, lid tightener and squint are upper face by FACS and move the cheek; the nose wrinkler, lower face,
     // moves the brows.
     const std::set<int> across = {6, 7, 9, 44};
-    for (const auto& unit : builtin_catalogue().units())
+    for (const auto& unit : facs::builtin_catalogue().units())
         EXPECT_EQ(halves(std::to_string(unit.number)),
                   across.contains(unit.number) ? std::pair(true, true) : std::pair(!unit.lower_face, unit.lower_face))
             << unit.number;
@@ -112,24 +114,24 @@ TEST_F(ExpressionModelTest, a_unit_whose_zone_lies_across_the_border_moves_both_
 
 TEST_F(ExpressionModelTest, each_kind_of_point_can_be_left_out_and_the_thesis_leaves_out_coverage_and_anchors) {
     const auto kinds = [](const ExpressionModel& model) {
-        std::map<ControlKind, std::size_t> count;
+        std::map<facs::ControlKind, std::size_t> count;
         for (const auto& control : model.points) ++count[control.kind];
         return count;
     };
     const auto all = kinds(measure(*source_));
-    EXPECT_GT(all.at(ControlKind::muscle), 0U);
-    EXPECT_GT(all.at(ControlKind::wrinkle), 0U);
-    EXPECT_GT(all.at(ControlKind::coverage), 0U);
+    EXPECT_GT(all.at(facs::ControlKind::muscle), 0U);
+    EXPECT_GT(all.at(facs::ControlKind::wrinkle), 0U);
+    EXPECT_GT(all.at(facs::ControlKind::coverage), 0U);
     ModelOptions options;
     options.wrinkle_points = options.coverage_points = false;
     const auto muscles = kinds(measure(*source_, options));
     EXPECT_EQ(muscles.size(), 2U);
-    EXPECT_EQ(muscles.at(ControlKind::muscle), all.at(ControlKind::muscle));
+    EXPECT_EQ(muscles.at(facs::ControlKind::muscle), all.at(facs::ControlKind::muscle));
     const auto thesis_model = measure(*source_, ModelOptions::thesis());
     const auto thesis = kinds(thesis_model);
     EXPECT_EQ(thesis.size(), 2U);
-    EXPECT_EQ(thesis.count(ControlKind::coverage) + thesis.count(ControlKind::anchor), 0U);
-    EXPECT_EQ(thesis_model.frame, Frame::affine);
+    EXPECT_EQ(thesis.count(facs::ControlKind::coverage) + thesis.count(facs::ControlKind::anchor), 0U);
+    EXPECT_EQ(thesis_model.frame, Normalisation::affine);
     // Points and their images are grid vertices in the affine frame, so the whole vector is a difference of two.
     const auto& to_average = source_->neutral.average_from_scan_affine;
     for (const auto& control : thesis_model.points) {
@@ -221,8 +223,12 @@ TEST_F(ExpressionModelTest, a_stored_model_says_how_it_came_about_and_what_diffe
     options.kernel = geometry::SplineKernel::r2_log_r2;
     options.smoothing = 0.1;  // no exact double: 17 digits keep it
     options.anchors = false;
-    model.provenance = ModelProvenance{
-        "1.2.3", "default", options, "mine.toml", builtin_catalogue().content_hash(), average_fingerprint(*average_)};
+    model.provenance = ModelProvenance{"1.2.3",
+                                       "default",
+                                       options,
+                                       "mine.toml",
+                                       facs::builtin_catalogue().content_hash(),
+                                       average_fingerprint(*average_)};
     write_expression_model(file, model);
     const auto read = read_expression_model(file);
     EXPECT_EQ(read.provenance, model.provenance);
@@ -314,7 +320,7 @@ TEST_F(ExpressionModelTest, a_missing_landmark_and_an_unknown_expression_are_nam
     ModelOptions on_source;
     on_source.place_on_average = false;
     EXPECT_THAT(message_of<InputError>([&] {
-                    (void)measure_expression(builtin_catalogue(), "12", *average_, neutral, source_->smiling,
+                    (void)measure_expression(facs::builtin_catalogue(), "12", *average_, neutral, source_->smiling,
                                              on_source);
                 }),
                 HasSubstr("'nose_tip' is missing"));
@@ -329,7 +335,7 @@ TEST_F(ExpressionModelTest, closed_lips_with_two_marks_on_one_place_are_measured
     neutral.landmarks = geometry::Landmarks(marks);
     ModelOptions exact;  // the default smooths over landmark jitter, of which there is none here
     exact.smoothing = 0;
-    const auto model = measure_expression(builtin_catalogue(), "12", *average_, neutral, source_->smiling, exact);
+    const auto model = measure_expression(facs::builtin_catalogue(), "12", *average_, neutral, source_->smiling, exact);
     EXPECT_THAT(model.left_out, testing::Contains(HasSubstr("'lower_lip_inner' lies on 'upper_lip_inner'")));
     EXPECT_GT(model.largest_displacement_mm(), 4.0);
 }

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
-#include "preprocessing/control_pairs.h"
+#include "geometry/landmark_spline.h"
 #include "preprocessing/workspace.h"
 #include "tests/support/analytic_face.h"
 
@@ -58,16 +58,16 @@ TEST(ConsensusLandmarks, marks_that_few_have_and_marks_that_are_missing_change_n
     EXPECT_NEAR(eyes_mm, 90.0, 1e-6);  // all four faces are the same one
 }
 
-TEST(ControlPairs, landmarks_that_lie_on_one_another_are_merged_by_name_and_the_spline_still_passes_through_the_rest) {
+TEST(LandmarkPairs, landmarks_that_lie_on_one_another_are_merged_by_name_and_the_spline_still_passes_through_the_rest) {
     const auto marks = test::AnalyticFace{}.landmarks();
     std::vector<geometry::Landmark> closed(marks.all().begin(), marks.all().end());
     for (auto& mark : closed)
         if (mark.name == "lower_lip_inner") mark.position_mm = marks.position_mm("upper_lip_inner");
     const Landmarks from(closed);
     const auto to = test::AnalyticFace{1.2, 5}.landmarks();
-    const ControlPairs pairs(from, to);
+    const geometry::LandmarkPairs pairs(from, to);
     EXPECT_EQ(pairs.merged(), std::vector<std::string>{"'lower_lip_inner' lies on 'upper_lip_inner'"});
-    const auto spline = landmark_spline(from, to);
+    const auto spline = geometry::landmark_spline(from, to);
     for (const auto& mark : from.all())
         if (mark.name != "lower_lip_inner") {
             // Rounding of a dense solve of 25 equations on coordinates of a hundred millimetres.

@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/delaunay.h"
 #include "base/errors.h"
+#include "geometry/delaunay.h"
 #include "tests/support/analytic_face.h"
 
 namespace mimik::preprocessing {

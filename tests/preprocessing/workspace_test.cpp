@@ -10,14 +10,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "database/bosphorus_landmarks.h"
-#include "database/hidden_subjects.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/parallel.h"
+#include "database/bosphorus_landmarks.h"
+#include "database/hidden_subjects.h"
+#include "geometry/surface_index.h"
 #include "io/image.h"
 #include "io/mesh_io.h"
-#include "base/parallel.h"
-#include "geometry/surface_index.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_database.h"
 
@@ -41,8 +41,7 @@ PreprocessOptions quick() {
 std::map<std::string, std::string> contents(const fs::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file())
-            files[fs::relative(entry.path(), folder).string()] = base::read_text(entry.path());
+        if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = base::read_text(entry.path());
     return files;
 }
 
@@ -183,8 +182,8 @@ TEST_F(WorkspaceTest, an_image_or_image_landmarks_that_come_change_or_go_make_th
         return database_ / "bs001" / (std::string("bs001_N_N_0") + extension);
     };
     const auto write_image = [&](int width, int height) {
-        io::write_png(
-            name(".png"), {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), 99)});
+        io::write_png(name(".png"),
+                      {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), 99)});
     };
     // Pixels of a photograph that stands on its head: the texture coordinates have to be turned.
     const auto write_marks = [&] {

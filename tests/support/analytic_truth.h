@@ -7,18 +7,18 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
-#include "synthesis/truth.h"
+#include "database/truth.h"
 #include "tests/support/analytic_database.h"
 
 namespace mimik::test {
 
 /// The truth of an analytic scan: its own lattice as the true surface, so the same vertex is the same skin point in all
 /// of them; head frame = the frame of the closed form.
-inline synthesis::TrueScan analytic_truth(const std::string& name, const AnalyticFace& shape,
-                                          const geometry::Transform& pose) {
+inline database::TrueScan analytic_truth(const std::string& name, const AnalyticFace& shape,
+                                         const geometry::Transform& pose) {
     constexpr double step_mm = 3.0;
     constexpr int cols = 41, rows = 49;  // x -60 ... 60, y -72 ... 72
-    synthesis::TrueScan truth;
+    database::TrueScan truth;
     truth.id = *database::parse_scan_name(name);
     truth.scanner_from_head = pose;
     for (int row = 0; row < rows; ++row)
@@ -44,7 +44,7 @@ inline void write_analytic_truth(const std::filesystem::path& root) {
         const std::string name = "bs00" + std::to_string(k / 2) + (k % 2 ? "_LFAU_12_0" : "_N_N_0");
         const auto truth =
             analytic_truth(name, {analytic_scales[k / 2], k % 2 ? analytic_smile_mm : 0}, analytic_pose(k));
-        synthesis::write_true_scan(root / "truth", truth);
+        database::write_true_scan(root / "truth", truth);
         vertices = truth.vertices_mm.size();
         scans.push_back(name);
     }

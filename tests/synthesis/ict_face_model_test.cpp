@@ -10,9 +10,9 @@
 
 #include "base/errors.h"
 #include "geometry/landmarks.h"
-#include "synthesis/expression.h"
 #include "synthesis/face_model.h"
 #include "synthesis/ict_obj.h"
+#include "synthesis/posed_expression.h"
 #include "synthesis/subject.h"
 #include "tests/database/temporary_folder.h"
 

@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "database/scan_database.h"
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/parallel.h"
-#include "synthesis/truth.h"
+#include "database/scan_database.h"
+#include "database/truth.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/synthesis/dome_model.h"
 
@@ -42,8 +42,7 @@ protected:
 std::map<std::string, std::vector<std::uint8_t>> all_files(const fs::path& root) {
     std::map<std::string, std::vector<std::uint8_t>> files;
     for (const auto& entry : fs::recursive_directory_iterator(root))
-        if (entry.is_regular_file())
-            files[fs::relative(entry.path(), root).string()] = base::read_bytes(entry.path());
+        if (entry.is_regular_file()) files[fs::relative(entry.path(), root).string()] = base::read_bytes(entry.path());
     return files;
 }
 
@@ -55,13 +54,13 @@ TEST_F(Synthesize, database_reads_back_with_its_landmarks_on_the_subjects_own_si
     ASSERT_EQ(database.scans.size(), 10U);
     EXPECT_FALSE(database.code_sides.swapped);
     EXPECT_THAT(database.remarks, testing::IsEmpty());
-    const auto truth = open_truth(folder_ / "db");
+    const auto truth = database::open_truth(folder_ / "db");
     for (const auto& entry : database.scans) {
         const auto loaded = database::load(entry);
         EXPECT_GT(loaded.landmarks.position_mm("eye_outer_left").x(),
                   loaded.landmarks.position_mm("eye_outer_right").x());
         ASSERT_TRUE(loaded.checks.texture.has_value());
-        const auto scan = load_true_scan(truth, entry.id);
+        const auto scan = database::load_true_scan(truth, entry.id);
         for (const auto& mark : loaded.landmarks.all())
             EXPECT_LT((mark.position_mm - scan.landmarks.position_mm(mark.name)).norm(), 6.0) << mark.name;
     }
@@ -70,14 +69,14 @@ TEST_F(Synthesize, database_reads_back_with_its_landmarks_on_the_subjects_own_si
 TEST_F(Synthesize, truth_holds_the_pose_and_the_displacement_from_the_resting_face) {
     const auto model = make_dome_model();
     (void)synthesize_database(folder_ / "db", *model, options_);
-    const auto truth = open_truth(folder_ / "db");
+    const auto truth = database::open_truth(folder_ / "db");
     EXPECT_EQ(truth.face_model, "dome");
     EXPECT_EQ(truth.variances.at("identity"), options_.variances.identity);
     EXPECT_EQ(truth.variances.at("field_length_mm"), options_.variances.field_length_mm);
     EXPECT_EQ(truth.landmark_vertices, model->landmark_vertices());
     EXPECT_EQ(truth.vertex_regions, model->vertex_regions());
     const auto subject = draw_subject(*model, "bs001", options_.seed, options_.variances);
-    const auto scan = load_true_scan(truth, {"bs001", "LFAU", "12L", 0});
+    const auto scan = database::load_true_scan(truth, {"bs001", "LFAU", "12L", 0});
     const auto head = scan.head_vertices_mm();
     ASSERT_EQ(head.size(), subject.resting_mm.size());
     for (std::size_t i = 0; i < head.size(); ++i)
@@ -183,7 +182,7 @@ TEST_F(Synthesize, the_sex_of_every_subject_is_read_back_as_the_truth_has_it) {
     options_.expressions = "12";
     (void)synthesize_database(folder_ / "db", *model, options_);
     const auto database = database::open_database(folder_ / "db");
-    const auto truth = open_truth(folder_ / "db");
+    const auto truth = database::open_truth(folder_ / "db");
     ASSERT_EQ(truth.subjects.size(), 6U);
     for (const auto& subject : truth.subjects)
         EXPECT_EQ(database.neutrals(subject.name).at(0)->sex, subject.sex) << subject.name;
@@ -198,10 +197,10 @@ std::string small_truth(const std::string& from = "", const std::string& to = ""
     return text;
 }
 
-TEST(Truth, numbers_that_do_not_fit_the_faces_are_refused_with_file_field_and_value) {
-    EXPECT_EQ(decode_truth(small_truth(), "t.json").vertex_regions.at(3), "lip");
+TEST(database::Truth, numbers_that_do_not_fit_the_faces_are_refused_with_file_field_and_value) {
+    EXPECT_EQ(database::decode_truth(small_truth(), "t.json").vertex_regions.at(3), "lip");
     const auto error = [](const std::string& from, const std::string& to) {
-        return database::message_of<InputError>([&] { (void)decode_truth(small_truth(from, to), "t.json"); });
+        return database::message_of<InputError>([&] { (void)database::decode_truth(small_truth(from, to), "t.json"); });
     };
     for (const char* vertices : {"100000000000", "-1", "1e11", "2.5", "null"})
         EXPECT_THAT(error("\"vertices\": 4", std::string("\"vertices\": ") + vertices),
@@ -214,12 +213,13 @@ TEST(Truth, numbers_that_do_not_fit_the_faces_are_refused_with_file_field_and_va
     EXPECT_THAT(error("\"seed\": 1,", "\"seed\": 1, \"variances\": {\"identity\": \"x\"},"),
                 HasSubstr("t.json: variances: "));
     EXPECT_THAT(error("bs000_N_N_0", "bs000"), HasSubstr("t.json: scans[0]: 'bs000' is no scan name"));
-    EXPECT_THAT(database::message_of<InputError>([] { (void)decode_truth("[1]", "t.json"); }), HasSubstr("t.json: "));
+    EXPECT_THAT(database::message_of<InputError>([] { (void)database::decode_truth("[1]", "t.json"); }),
+                HasSubstr("t.json: "));
 }
 
-TEST(Truth, a_name_given_to_many_vertices_stays_short_and_no_scan_lies_elsewhere) {
+TEST(database::Truth, a_name_given_to_many_vertices_stays_short_and_no_scan_lies_elsewhere) {
     const auto error = [](const std::string& from, const std::string& to) {
-        return database::message_of<InputError>([&] { (void)decode_truth(small_truth(from, to), "t.json"); });
+        return database::message_of<InputError>([&] { (void)database::decode_truth(small_truth(from, to), "t.json"); });
     };
     EXPECT_THAT(error("\"lip\"", '"' + std::string(1'000'000, 'x') + '"'),
                 HasSubstr("in face_model.regions has 1000000 letters, more than 64"));
@@ -227,21 +227,21 @@ TEST(Truth, a_name_given_to_many_vertices_stays_short_and_no_scan_lies_elsewhere
                 HasSubstr("t.json: scans[0]: '../bs000_N_N_0' is no scan name"));
     EXPECT_THAT(error("\"seed\": 1", "\"seed\": -1"), HasSubstr("t.json: seed: -1 is no whole number"));
     const std::string largest = "18446744073709551615";
-    EXPECT_EQ(decode_truth(small_truth("\"seed\": 1", "\"seed\": " + largest), "t.json").seed,
+    EXPECT_EQ(database::decode_truth(small_truth("\"seed\": 1", "\"seed\": " + largest), "t.json").seed,
               std::numeric_limits<std::uint64_t>::max());
     EXPECT_THAT(error("\"subjects\": []", "\"subjects\": [{\"name\": \"bs000\", \"sex\": null}]"),
                 HasSubstr("t.json: subjects[0]: sex: type must be string, but is null"));
 }
 
-TEST(Truth, of_one_scan_hostile_values_are_refused_with_file_and_field) {
+TEST(database::Truth, of_one_scan_hostile_values_are_refused_with_file_and_field) {
     const std::string sound =
         R"({"schema": 1, "scan": "bs000_N_N_0", "scanner_from_head": [[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]],)"
         R"( "landmarks": {"chin": [0, -60, 0.5]}, "shape_weights": {"smile": 0.7}, "amplitude": 1, "asymmetry": 0})";
-    EXPECT_EQ(decode_true_scan(sound, "s.json").landmarks.position_mm("chin").y(), -60);
+    EXPECT_EQ(database::decode_true_scan(sound, "s.json").landmarks.position_mm("chin").y(), -60);
     const auto error = [&](const std::string& from, const std::string& to) {
         auto text = sound;
         text.replace(text.find(from), from.size(), to);
-        return database::message_of<InputError>([&] { (void)decode_true_scan(text, "s.json"); });
+        return database::message_of<InputError>([&] { (void)database::decode_true_scan(text, "s.json"); });
     };
     EXPECT_THAT(error("[0,0,1,0]", "[0,0,0,0]"), HasSubstr("s.json: scanner_from_head: not an invertible 4x4 matrix"));
     EXPECT_THAT(error("[0, -60, 0.5]", "[0, -60]"), HasSubstr("s.json: landmarks: chin: "));
@@ -260,12 +260,12 @@ TEST_F(Synthesize, a_folder_in_use_and_a_folder_without_truth_are_named) {
         EXPECT_THAT(e.what(), HasSubstr("exists already"));
     }
     try {
-        (void)open_truth(folder_ / "db");
+        (void)database::open_truth(folder_ / "db");
         FAIL();
     } catch (const InputError& e) {
         EXPECT_THAT(e.what(), HasSubstr("truth.json"));
     }
-    EXPECT_THROW((void)open_truth(std::string(5000, 'x')), InputError);
+    EXPECT_THROW((void)database::open_truth(std::string(5000, 'x')), InputError);
     options_.subjects = 0;
     EXPECT_THROW((void)synthesize_database(folder_ / "other", *model, options_), InputError);
 }

@@ -1,0 +1,36 @@
+#include "animation/method.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/errors.h"
+
+// animation/CMakeLists.txt lists the files of animation/methods/ in it: DECLARE(stem) and LIST(stem) for each.
+#include "animation/methods.inc"
+
+namespace mimik::animation {
+
+const char* to_string(SourceKind kind) {
+    return kind == SourceKind::none ? "none" : kind == SourceKind::one_source ? "one source" : "mean";
+}
+
+std::unique_ptr<const Transfer> learn(const Method& method, const Subject& subject,
+                                      std::span<const modeling::Performance> performances) {
+    const auto learner = method.learner(subject);
+    std::vector<LessonPointer> lessons;
+    for (const auto& performance : performances) lessons.push_back(learner->study(performance));
+    return learner->learn(lessons);
+}
+
+std::vector<MethodPointer> known_methods() { return methods::all(); }
+
+MethodPointer method_by_name(const std::string& name) {
+    std::vector<std::string> names;
+    for (const auto& method : known_methods()) {
+        if (method->name() == name) return method;
+        names.push_back(method->name());
+    }
+    throw InputError(fmt::format("method '{}' is unknown; there are: {}", name, fmt::join(names, ", ")));
+}
+
+}  // namespace mimik::animation

@@ -1,0 +1,82 @@
+#include "animation/sparse_method.h"
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "base/fields.h"
+
+namespace mimik::animation {
+namespace {
+
+using modeling::ExpressionModel;
+
+class SparseLesson : public Lesson {
+public:
+    explicit SparseLesson(ExpressionModel model) : model_(std::move(model)) {}
+    [[nodiscard]] std::size_t bytes() const override {
+        constexpr std::size_t name_bytes = 32;  // most names are too long to stand in the string itself
+        return model_.points.size() * (sizeof(modeling::ModelPoint) + name_bytes);
+    }
+    [[nodiscard]] const ExpressionModel& model() const { return model_; }
+
+private:
+    ExpressionModel model_;
+};
+
+const ExpressionModel& model_of(const LessonPointer& lesson) {
+    return dynamic_cast<const SparseLesson&>(*lesson).model();
+}
+
+class SparseTransfer : public Transfer {
+public:
+    SparseTransfer(LessonPointer lesson, const AnimationOptions& options)
+        : lesson_(std::move(lesson)), options_(options) {}
+    [[nodiscard]] geometry::DisplacementField on(const PreparedTarget& target) const override {
+        const WeightedExpression weighted{&model_of(lesson_), 1.0};
+        return animate(target, std::span(&weighted, 1), options_).field;
+    }
+
+private:
+    LessonPointer lesson_;
+    AnimationOptions options_;
+};
+
+class SparseLearner : public Learner {
+public:
+    SparseLearner(const Subject& subject, const SparseMethod::Setting& setting)
+        : setting_(setting), gauge_(subject.catalogue, subject.expression, subject.average, setting.model) {}
+
+    [[nodiscard]] LessonPointer study(const modeling::Performance& performance) const override {
+        return std::make_shared<const SparseLesson>(gauge_.measure(performance.neutral, performance.expressive));
+    }
+
+    [[nodiscard]] std::unique_ptr<const Transfer> learn(std::span<const LessonPointer> lessons) const override {
+        if (setting_.needs == SourceKind::one_source && lessons.size() == 1)
+            return std::make_unique<SparseTransfer>(lessons.front(), setting_.animation);
+        modeling::ExpressionMean mean;
+        for (const auto& lesson : lessons) mean.add(model_of(lesson));
+        return std::make_unique<SparseTransfer>(std::make_shared<const SparseLesson>(mean.mean()), setting_.animation);
+    }
+
+private:
+    SparseMethod::Setting setting_;
+    modeling::ExpressionGauge gauge_;
+};
+
+}  // namespace
+
+SparseMethod::SparseMethod(Setting setting) : setting_(std::move(setting)) {
+    setting_.model.check();
+    setting_.animation.check();
+    if (setting_.needs == SourceKind::all_but_target && !setting_.model.place_on_average)
+        throw InputError(
+            fmt::format("method '{}': a mean needs its points on the average face (place_on_average)", setting_.name));
+}
+
+std::string SparseMethod::lessons_key() const { return "sparse" + base::field_text(setting_.model); }
+
+std::unique_ptr<const Learner> SparseMethod::learner(const Subject& subject) const {
+    return std::make_unique<SparseLearner>(subject, setting_);
+}
+
+}  // namespace mimik::animation

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "animation/animate.h"
+#include "animation/method.h"
+#include "modeling/expression_model.h"
+
+namespace mimik::animation {
+
+/// Control points and thin-plate splines: the thesis's way, and what grew out of it. The options say which.
+class SparseMethod : public Method {
+public:
+    struct Setting {
+        std::string name;
+        SourceKind needs = SourceKind::one_source;
+        modeling::ModelOptions model;
+        AnimationOptions animation;
+    };
+    /// @throws InputError for bad options, or a mean whose points do not stand on the average face.
+    explicit SparseMethod(Setting setting);
+
+    [[nodiscard]] std::string name() const override { return setting_.name; }
+    [[nodiscard]] SourceKind needs() const override { return setting_.needs; }
+    [[nodiscard]] std::string lessons_key() const override;
+    [[nodiscard]] std::unique_ptr<const Learner> learner(const Subject& subject) const override;
+
+    [[nodiscard]] const modeling::ModelOptions& model_options() const { return setting_.model; }
+    [[nodiscard]] const AnimationOptions& animation_options() const { return setting_.animation; }
+
+private:
+    Setting setting_;
+};
+
+}  // namespace mimik::animation

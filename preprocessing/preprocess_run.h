@@ -1,0 +1,80 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "database/scan_database.h"
+#include "facs/facs_catalogue.h"
+#include "preprocessing/average_face.h"
+#include "preprocessing/preprocess_scan.h"
+#include "preprocessing/rigid_alignment.h"
+
+namespace mimik::preprocessing {
+
+struct PreprocessOptions {
+    ScanSteps steps;
+    AverageFaceOptions average;
+    RigidAlignmentOptions alignment;
+    std::vector<std::string> subjects;  ///< empty: all; case ignored
+    std::vector<std::string> codes;     ///< expressions to take beside the neutrals, e.g. "12", "AU12", "HAPPY"; empty:
+                                        ///< all but head rotations and occlusions (groups YR, PR, CR, O, IGN)
+    void check() const;                 ///< throws InputError
+};
+
+struct ScanFailure {
+    std::string scan;
+    std::string reason;
+};
+
+struct ScanRemark {
+    std::string scan;
+    std::string remark;
+};
+
+struct PreprocessReport {
+    std::size_t preprocessed = 0;          ///< written in this run
+    std::size_t up_to_date = 0;            ///< found finished from an earlier run
+    std::vector<ScanFailure> failures;     ///< by subject
+    std::vector<ScanRemark> remarks;       ///< of the faces written in this run
+    std::vector<std::string> closed_lips;  ///< scans among them whose inner lips lie on one grid vertex
+    std::vector<std::string> left_out;     ///< subjects without a usable neutral
+};
+
+/// @throws InputError if `root` is empty, a file, a link that goes round in circles, the database's folder or anywhere
+/// in it, or a folder of its scans: a database is never written into.
+void check_workspace_place(const database::ScanDatabase& database, const std::filesystem::path& root);
+
+/// Preprocesses a whole database, in parallel over subjects, one scan in memory per thread. What an earlier run
+/// finished with the same options on the same file is not done again; a face that was deleted or damaged since is. From
+/// the first face that a run writes to its end there is no workspace.json, so that nobody takes a half-made folder for
+/// a finished one. A scan that fails is reported and the rest goes on.
+/// Scans are aligned by what the catalogue says their expression leaves alone; of an expression that it lacks, by what
+/// no expression moves, with a remark.
+/// @param progress  called once per scan, from any thread; may be empty.
+/// @throws InputError for bad options, a `root` in the database or one that takes no files, an empty selection, or
+/// fewer than two subjects with a usable neutral.
+PreprocessReport preprocess_database(const database::ScanDatabase& database, const std::filesystem::path& root,
+                                     const facs::FacsCatalogue& catalogue, const PreprocessOptions& options = {},
+                                     const std::function<void(const std::string& scan)>& progress = {});
+
+/// How far an earlier run got.
+struct PreprocessPlan {
+    std::size_t up_to_date = 0;
+    std::size_t remaining = 0;
+    std::vector<std::string> unfinished_subjects;  ///< of whom a scan remains
+};
+/// What preprocess_database would do with the same arguments, found out without reading a scan; nothing is written. A
+/// scan that failed remains; the other scans of a neutral that failed count as if it could be used.
+/// @throws InputError as preprocess_database, but for what only the scans or writing can tell.
+[[nodiscard]] PreprocessPlan plan_preprocessing(const database::ScanDatabase& database,
+                                                const std::filesystem::path& root, const facs::FacsCatalogue& catalogue,
+                                                const PreprocessOptions& options = {});
+
+/// The scans that `options` select, neutrals first within each subject. @throws InputError naming the subjects or
+/// expressions that the database does not have.
+[[nodiscard]] std::vector<const database::ScanEntry*> selected_scans(const database::ScanDatabase& database,
+                                                                     const PreprocessOptions& options);
+
+}  // namespace mimik::preprocessing

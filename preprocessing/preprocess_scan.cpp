@@ -1,0 +1,74 @@
+#include "preprocessing/preprocess_scan.h"
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "geometry/point_index.h"
+
+namespace mimik::preprocessing {
+
+using geometry::Point;
+
+namespace {
+
+/// A cloud of a whole head says nothing about what is in front.
+void judge_cloud(const GriddingReport& gridded, const database::LoadedScan& loaded, std::vector<std::string>& remarks) {
+    // Of what a scanner sees no more than 0.0002; of whole heads from 0.04 on, however dense their front.
+    if (gridded.seen_through > 0.02)
+        throw InputError(fmt::format(
+            "{}: {:.1f} % of the triangles between neighbouring points join front and back, and a cloud does not say "
+            "which is which; give the mesh with its faces, or cut off what lies behind the face",
+            loaded.entry.scan_file.string(), 100 * gridded.seen_through));
+    if (gridded.seen_through > 0.002)
+        remarks.push_back(
+            fmt::format("{:.1f} % of the triangles between neighbouring points join front and back; the surface there "
+                        "counts as bridged",
+                        100 * gridded.seen_through));
+}
+
+/// Every landmark at the nearest vertex of the grid.
+geometry::Landmarks snapped_landmarks(const Face& face) {
+    std::vector<Point> inside;
+    for (std::size_t v = 0; v < face.grid.size(); ++v)
+        if (face.grid.inside(v)) inside.push_back(face.grid.vertices_mm[v]);
+    const geometry::PointIndex index(inside);
+    std::vector<geometry::Landmark> snapped(face.landmarks.all().begin(), face.landmarks.all().end());
+    for (auto& mark : snapped) mark.position_mm = inside[index.nearest(mark.position_mm).index];
+    return geometry::Landmarks(std::move(snapped));
+}
+
+}  // namespace
+
+void ScanSteps::check() const {
+    cleaning.check();
+    gridding.check();
+}
+
+Face preprocess_scan(const database::LoadedScan& loaded, const ScanSteps& steps, CleaningReport* cleaning,
+                     GriddingReport* gridding) {
+    Face face;
+    face.id = loaded.entry.id;
+    face.sex = loaded.entry.sex;
+    face.landmarks = loaded.landmarks;
+    face.remarks = loaded.remarks;
+    // A manifest may list meshes that know of no image, and any image of the same name lies beside them.
+    if (!loaded.scan.texture_coordinates.empty())
+        face.texture_file = loaded.entry.texture_file;
+    else if (!loaded.entry.texture_file.empty())
+        face.remarks.emplace_back("the image beside it is not used: the scan has no texture coordinates");
+    CleaningReport cleaned;
+    GriddingReport gridded;
+    face.grid = grid_scan(clean(loaded.scan, steps.cleaning, &cleaned), steps.gridding, &gridded);
+    judge_cloud(gridded, loaded, face.remarks);
+    if (const auto lost = cleaned.spikes + cleaned.stray_points; 20 * lost > cleaned.points)
+        face.remarks.push_back(
+            fmt::format("cleaning left out {} of {} points: {} spikes, and {} stray points in {} parts", lost,
+                        cleaned.points, cleaned.spikes, cleaned.stray_points, cleaned.stray_parts));
+    if (cleaning) *cleaning = cleaned;
+    if (gridding) *gridding = gridded;
+
+    face.snapped_landmarks = snapped_landmarks(face);
+    return face;
+}
+
+}  // namespace mimik::preprocessing

@@ -1,0 +1,504 @@
+#include "report/comparison_panels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "animation/face_export.h"
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "evaluation/active_zone.h"
+#include "evaluation/surface_distance.h"
+#include "geometry/landmark_spline.h"
+#include "io/json_values.h"
+#include "io/landmark_io.h"
+#include "io/mesh_io.h"
+#include "modeling/source_expression.h"
+
+namespace mimik::report {
+
+using evaluation::ActiveZone;
+using evaluation::Method;
+using evaluation::ScoredTarget;
+
+using animation::AnimatedFace;
+using animation::TargetFace;
+using facs::ControlKind;
+using facs::FacsCatalogue;
+using geometry::Mesh;
+using geometry::Point;
+using modeling::ExpressionModel;
+using preprocessing::Face;
+using preprocessing::Workspace;
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* description_file = "figure.json";
+constexpr int panel_width_px = 320, panel_height_px = 400;
+
+struct NamedControl {
+    std::string name;
+    ControlKind kind;
+    Point position_mm;
+};
+
+/// One row of the figure.
+struct Person {
+    explicit Person(std::string part) : role(std::move(part)) {}
+    std::string role;  ///< "source", "target", "average"
+    Face neutral;
+    AnimatedFace animated;
+    std::vector<NamedControl> controls;       ///< on the neutral face
+    std::vector<NamedControl> real_controls;  ///< on the real scan, frame of the neutral one
+    std::optional<Face> real;
+    std::optional<ScoredTarget> scored;
+    ComparedPerson compared;
+};
+
+TargetFace target_face(const Face& neutral, const Method& method) {
+    const auto frame = method.model.normalisation;
+    return {neutral, frame, frame == modeling::Normalisation::affine};
+}
+
+AnimatedFace animated_face(const TargetFace& target, const ExpressionModel& model, const Method& method,
+                           double magnitude) {
+    const animation::WeightedExpression weighted{&model, magnitude};
+    return animation::animate(target, std::span(&weighted, 1), method.animation);
+}
+
+modeling::ExpressionSource source_of(const Workspace& workspace, const ComparisonRequest& request) {
+    modeling::ExpressionSource source{request.source, {request.target}};
+    for (const auto& subject : workspace.subjects())
+        if (workspace.hidden(subject)) source.excluded.push_back(subject);
+    return source;
+}
+
+/// The average face as somebody who can be animated.
+Face average_person(const Workspace& workspace) {
+    const auto& average = workspace.average();
+    Face face;
+    face.grid = average.grid;
+    face.landmarks = face.snapped_landmarks = average.landmarks;
+    return face;
+}
+
+/// Middle of what is drawn of a neutral face: where all panels of that person look.
+Point centre_of(const geometry::QuadGrid& grid, geometry::BridgedVertices bridged) {
+    Point low = Point::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const auto& p : geometry::to_mesh(grid, bridged).vertices_mm) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    return 0.5 * (low + high);
+}
+
+Json json_point(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+/// `name,x,y,z,kind` of muscle and wrinkle points; coverage points in a file of their own, since they stand for no
+/// muscle. @return whether there was any.
+bool write_controls(const fs::path& file, const std::vector<NamedControl>& controls, bool coverage) {
+    std::string text = "name,x,y,z,kind\n";
+    bool any = false;
+    for (const auto& control : controls) {
+        if (control.kind == ControlKind::anchor || (control.kind == ControlKind::coverage) != coverage) continue;
+        any = true;
+        text += fmt::format("{},{:.17g},{:.17g},{:.17g},{}\n", base::csv_field(control.name), control.position_mm.x(),
+                            control.position_mm.y(), control.position_mm.z(), modeling::to_string(control.kind));
+    }
+    if (any) base::write_atomically(file, text);
+    return any;
+}
+
+/// Distances per vertex of a mesh made from a grid: NaN, drawn in grey, where no distance can be had.
+geometry::VertexAttribute distance_attribute(const ScoredTarget& scored, const std::vector<Point>& vertices_mm,
+                                             const std::vector<std::uint32_t>& kept) {
+    std::vector<std::uint8_t> counts(vertices_mm.size(), 0);
+    for (const auto v : scored.vertices) counts[v] = vertices_mm[v].allFinite() ? 1 : 0;
+    const auto distances = evaluation::distances_to_surface(vertices_mm, *scored.expressive, counts);
+    geometry::VertexAttribute attribute{"distance_mm", 1, {}};
+    for (const auto v : kept) attribute.values.push_back(distances.distance_mm[v]);
+    return attribute;
+}
+
+/// A description being made: the files of the panels go beside it.
+class FigureFolder {
+public:
+    FigureFolder(fs::path folder, const ComparisonRequest& request) : folder_(std::move(folder)), request_(request) {
+        remove_earlier();
+    }
+
+    [[nodiscard]] fs::path file(const std::string& name) const { return folder_ / name; }
+    /// A panel that shows `mesh` with its middle at `centre_mm`.
+    Json& add_panel(const std::string& mesh, const std::string& caption, const Point& centre_mm) {
+        panels_.push_back({{"mesh", mesh},
+                           {"caption", fmt::format("({}) {}", letter(panels_.size()), caption)},
+                           {"centre_mm", json_point(centre_mm)}});
+        return panels_.back();
+    }
+    void add_controls(Json& panel, const std::vector<NamedControl>& controls, const std::string& stem) const {
+        if (write_controls(file(stem + ".csv"), controls, false)) panel["controls"] = stem + ".csv";
+        // Smaller and paler than the catalogue's own points: there are many, and they only fill the zone.
+        const auto coverage = stem + "_coverage.csv";
+        if (write_controls(file(coverage), controls, true))
+            panel["markers"] = Json::array(
+                {{{"file", coverage}, {"name", "coverage controls"}, {"colour", "#8c8c8c"}, {"radius_mm", 1.2}}});
+    }
+    /// @return the file's path
+    fs::path finish(const std::string& title, int columns, double scale_bar_mm) const {
+        const Json document = {{"schema", 1},
+                               {"title", title},
+                               {"columns", columns},
+                               {"panel_width_px", panel_width_px},
+                               {"panel_height_px", panel_height_px},
+                               {"font_size_px", 17},
+                               {"scale_bar_mm", scale_bar_mm},
+                               {"legend", true},
+                               {"view", request_.view},
+                               {"panels", panels_}};
+        base::write_atomically(file(description_file), io::json_text(document));
+        return file(description_file);
+    }
+    [[nodiscard]] std::size_t panels() const { return panels_.size(); }
+
+private:
+    /// a ... z, aa, ab, ...
+    static std::string letter(std::size_t k) {
+        const std::string last(1, static_cast<char>('a' + k % 26));
+        return k < 26 ? last : letter(k / 26 - 1) + last;
+    }
+    /// Files of an earlier figure there: only what its description names, and what lies in the folder itself.
+    void remove_earlier() const {
+        std::error_code ignored;
+        if (!fs::is_regular_file(file(description_file), ignored)) return;
+        const auto remove = [&](const nlohmann::json& name) {
+            if (name.is_string() && fs::path(name.get<std::string>()).filename() == name.get<std::string>())
+                fs::remove(file(name.get<std::string>()), ignored);
+        };
+        try {
+            const auto text = base::read_text(file(description_file), io::most_json_bytes);
+            const auto earlier = io::parse_json(text, description_file);
+            for (const auto& panel : earlier.at("panels")) {
+                for (const char* key : {"mesh", "landmarks", "controls"})
+                    if (panel.contains(key)) remove(panel.at(key));
+                if (!panel.contains("markers")) continue;
+                for (const auto& markers : panel.at("markers")) remove(markers.at("file"));
+            }
+        } catch (const std::exception&) {
+            return;  // somebody else's: what it names is not known
+        }
+        fs::remove(file(description_file), ignored);
+    }
+
+    fs::path folder_;
+    const ComparisonRequest& request_;
+    std::vector<Json> panels_;
+};
+
+/// What makes another picture of the same people by the same method, each in a word: "_r2logr_no-anchors_left_bridged".
+std::string variant_suffix(const ComparisonRequest& request) {
+    const auto usual = evaluation::method_by_name(request.method.name == "thesis" ? "thesis" : "default");
+    auto suffix = modeling::variant_suffix(request.method.model, usual.model);
+    if (request.view != ComparisonRequest{}.view) suffix += "_" + request.view;
+    if (request.bridged == geometry::BridgedVertices::keep) suffix += "_bridged";
+    return suffix;
+}
+
+/// Mesh of a series; a magnitude that reads the same has the same file.
+std::string series_mesh(const std::string& expression, double magnitude) {
+    return fmt::format("{}_m{:g}.ply", expression, magnitude);
+}
+
+std::string expression_words(const FacsCatalogue& catalogue, const std::string& expression) {
+    const auto units = catalogue.resolve(expression);
+    auto words = facs::expression_name(catalogue, expression);
+    if (units.size() == 1 && words.starts_with("AU")) words += " " + units.front().unit->name;
+    return words;
+}
+
+std::string source_words(const ComparisonRequest& request) {
+    return request.source == "mean" ? "the mean of the others" : request.source;
+}
+
+std::string magnitude_words(double magnitude) {
+    return magnitude == 1.0 ? std::string() : fmt::format(", m = {:g}", magnitude);
+}
+
+/// Landmarks that lie on an earlier one on either person (closed lips): a spline through both has no answer, so
+/// nobody's file has them, and the files of two people go into 'mimik warp' as they are.
+std::set<std::string> coincident_landmarks(const std::vector<Person>& people) {
+    std::set<std::string> names;
+    for (const auto& person : people) {
+        std::vector<Point> kept_mm;
+        for (const auto& mark : person.neutral.landmarks.all()) {
+            if (names.contains(mark.name)) continue;
+            const bool lies_on_one = std::any_of(kept_mm.begin(), kept_mm.end(), [&](const Point& p) {
+                return (p - mark.position_mm).norm() < geometry::LandmarkPairs::coincident_mm;
+            });
+            if (lies_on_one)
+                names.insert(mark.name);
+            else
+                kept_mm.push_back(mark.position_mm);
+        }
+    }
+    return names;
+}
+
+geometry::Landmarks without(const geometry::Landmarks& landmarks, const std::set<std::string>& names) {
+    std::vector<geometry::Landmark> marks(landmarks.all().begin(), landmarks.all().end());
+    std::erase_if(marks, [&](const auto& mark) { return names.contains(mark.name); });
+    return geometry::Landmarks(std::move(marks));
+}
+
+/// Panels of one person, in the order of the thesis, then the coloured ones.
+void add_person(FigureFolder& folder, const Person& person, const geometry::Landmarks& landmarks,
+                const ComparisonRequest& request, double scale_mm) {
+    const auto stem = [&](const char* what) { return person.role + "_" + what; };
+    const Point centre_mm = centre_of(person.neutral.grid, request.bridged);
+
+    std::vector<std::uint32_t> kept;
+    Mesh neutral = geometry::to_mesh(person.neutral.grid, request.bridged, &kept);
+    Mesh animated = animation::to_mesh(person.animated, TargetFace(person.neutral, request.method.model.normalisation),
+                                       {.bridged = request.bridged});
+    if (person.scored) {
+        neutral.attributes.push_back(distance_attribute(*person.scored, person.neutral.grid.vertices_mm, kept));
+        animated.attributes.push_back(distance_attribute(*person.scored, person.animated.grid.vertices_mm, kept));
+    }
+    io::write_mesh(folder.file(stem("neutral.ply")), neutral);
+    io::write_mesh(folder.file(stem("animated.ply")), animated);
+    io::write_landmarks(folder.file(stem("landmarks.csv")), landmarks);
+
+    const auto who =
+        person.role == "average" ? std::string("average face") : person.role + " " + person.neutral.id.subject;
+    auto& first =
+        folder.add_panel(stem("neutral.ply"), (person.role == "average" ? "The " : "Neutral ") + who, centre_mm);
+    first["landmarks"] = stem("landmarks.csv");
+    folder.add_controls(first, person.controls, stem("controls"));
+    folder.add_panel(stem("animated.ply"), "Animated " + who, centre_mm);
+    if (!person.real) return;
+
+    auto real = person.real->grid;
+    for (auto& p : real.vertices_mm) p = person.real->neutral_from_scan * p;
+    io::write_mesh(folder.file(stem("real.ply")), geometry::to_mesh(real, request.bridged));
+    auto& third = folder.add_panel(stem("real.ply"), "Real scan of the " + person.role, centre_mm);
+    folder.add_controls(third, person.real_controls, stem("real_controls"));
+
+    const auto coloured = [&](const char* mesh, const std::string& words, double mean_mm) {
+        auto& panel = folder.add_panel(
+            stem(mesh), fmt::format("{} to real scan\nmean {:.2f} mm in the zone", words, mean_mm), centre_mm);
+        panel["scalar"] = {{"attribute", "distance_mm"}, {"label", "distance, mm"}, {"range", {0, scale_mm}}};
+    };
+    coloured("animated.ply", "Animated", person.compared.distances.zone_mm);
+    coloured("neutral.ply", "Neutral", person.compared.distances.zone_nothing_mm);
+}
+
+/// The real scan's distances, of the person as animated and of doing nothing.
+void compare(Person& person, const Workspace& workspace, const ActiveZone& zone) {
+    if (!person.real) return;
+    const auto& grid = person.neutral.grid;
+    person.scored = evaluation::scored_target(grid, person.real->grid, person.real->neutral_from_scan,
+                                              evaluation::carry_zone(zone, workspace.average(), person.neutral));
+    if (person.scored->vertices.empty())
+        throw InputError(
+            fmt::format("{} does not lie on {}: nothing of the neutral face sees it; 'mimik preprocess "
+                        "--sheets' shows how it was aligned",
+                        person.real->id.name(), person.neutral.id.name()));
+    if (std::find(person.scored->in_zone.begin(), person.scored->in_zone.end(), 1) == person.scored->in_zone.end())
+        throw InputError(
+            fmt::format("{} does not lie on {} where the expression is: nothing of its zone sees it; 'mimik preprocess "
+                        "--sheets' shows how it was aligned",
+                        person.real->id.name(), person.neutral.id.name()));
+    person.compared = {person.neutral.id.subject,
+                       evaluation::judge_case(*person.scored, person.animated.grid.vertices_mm,
+                                              person.animated.displacement_mm, grid, true)};
+}
+
+void add_remarks(std::vector<std::string>& remarks, const std::vector<std::string>& more) {
+    for (const auto& remark : more)
+        if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
+}
+
+void add_left_out(ComparisonFigure& figure, const ExpressionModel& model) {
+    std::vector<std::string> remarks;
+    for (const auto& reason : model.left_out) remarks.push_back(fmt::format("{}: {}", model.expression, reason));
+    add_remarks(figure.remarks, remarks);
+}
+
+void add_unusable(ComparisonFigure& figure, const ExpressionModel& model) {
+    for (const auto& scan : model.unusable_scans)
+        figure.failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression, scan));
+}
+
+}  // namespace
+
+double ComparedPerson::explained() const {
+    return distances.zone_nothing_mm > 0 ? 1 - distances.zone_mm / distances.zone_nothing_mm : 0;
+}
+
+std::string comparison_name(const FacsCatalogue& catalogue, const ComparisonRequest& request) {
+    const double m = request.method.magnitude;
+    return fmt::format("{}_{}{}_on_{}_{}{}", facs::expression_name(catalogue, request.expression),
+                       m == 1.0 ? std::string() : fmt::format("m{:g}_", m), request.source, request.target,
+                       request.method.name, variant_suffix(request));
+}
+
+std::string series_name(const FacsCatalogue& catalogue, const ComparisonRequest& request,
+                        std::span<const std::string> expressions) {
+    std::vector<std::string> names;
+    for (const auto& expression : expressions) names.push_back(facs::expression_name(catalogue, expression));
+    return fmt::format("{}_series_{}_on_{}_{}{}", fmt::join(names, "_"), request.source, request.target,
+                       request.method.name, variant_suffix(request));
+}
+
+ComparedScans compared_scans(const Workspace& workspace, const FacsCatalogue& catalogue,
+                             const ComparisonRequest& request) {
+    workspace.refuse_hidden(request.target);
+    modeling::check_source(workspace, source_of(workspace, request), request.method.model);
+    (void)workspace.neutral(request.target);
+    (void)catalogue.resolve(request.expression);
+    ComparedScans scans;
+    const auto sources =
+        modeling::source_scans(workspace, catalogue, request.expression, source_of(workspace, request));
+    if (request.source != "mean") scans.source = sources.front();
+    scans.target = workspace.expression(request.target, request.expression);
+    return scans;
+}
+
+ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsCatalogue& catalogue,
+                                         const ComparisonRequest& request, const fs::path& folder) {
+    const auto scans = compared_scans(workspace, catalogue, request);
+    const auto& method = request.method;
+    ComparisonFigure figure;
+    const auto zone = evaluation::active_zone_from_catalogue(request.expression, workspace.average(), catalogue);
+
+    std::vector<Person> people;
+    ExpressionModel model;
+    if (scans.source) {
+        Person source("source");
+        source.neutral = workspace.face(workspace.neutral(request.source));
+        source.real = workspace.face(*scans.source);
+        std::vector<modeling::FollowedPoint> followed;
+        model = modeling::measure_expression(catalogue, request.expression, workspace.average(), source.neutral,
+                                             *source.real, method.model, &followed);
+        for (const auto& point : followed) {
+            source.controls.push_back({point.name, point.kind, point.neutral_mm});
+            source.real_controls.push_back(
+                {point.name, point.kind, source.real->neutral_from_scan * point.expressive_mm});
+        }
+        if (!base::equal_ignoring_case(scans.source->code, request.expression))
+            figure.remarks.push_back(
+                fmt::format("{} was taken from one side of {}", request.expression, scans.source->name()));
+        people.push_back(std::move(source));
+    } else {
+        model = modeling::model_from_workspace(workspace, catalogue, request.expression, source_of(workspace, request),
+                                               method.model);
+        add_unusable(figure, model);
+        Person average("average");
+        average.neutral = average_person(workspace);
+        for (const auto& point : model.points) average.controls.push_back({point.name, point.kind, point.position_mm});
+        people.push_back(std::move(average));
+    }
+    if (request.target != request.source) {
+        Person target("target");
+        target.neutral = workspace.face(workspace.neutral(request.target));
+        if (scans.target)
+            target.real = workspace.face(*scans.target);
+        else
+            figure.remarks.push_back(
+                fmt::format("subject '{}' has no scan of expression '{}', so there is nothing to "
+                            "compare with",
+                            request.target, request.expression));
+        people.push_back(std::move(target));
+    }
+
+    for (auto& person : people) {
+        const auto face = target_face(person.neutral, method);
+        person.animated = animated_face(face, model, method, method.magnitude);
+        if (person.role == "target")
+            for (const auto& point : person.animated.points)
+                person.controls.push_back({point.name, point.kind, point.position_mm});
+        add_remarks(figure.remarks, person.animated.remarks);
+        compare(person, workspace, zone);
+        if (!person.scored) continue;
+        figure.scale_mm = std::max(figure.scale_mm, evaluation::quantile(person.scored->nothing_mm, 0.99));
+        figure.people.push_back(person.compared);
+    }
+    add_left_out(figure, model);
+
+    FigureFolder out(folder, request);
+    const auto coincident = coincident_landmarks(people);
+    for (const auto& person : people)
+        add_person(out, person, without(person.neutral.landmarks, coincident), request, figure.scale_mm);
+    figure.panels = out.panels();
+    // A row per person where both have a real scan; else what there is, without gaps.
+    const bool rows = people.size() == 1 || (people.front().real && people.back().real);
+    const int columns = rows ? 5 : static_cast<int>(figure.panels + 1) / 2;
+    figure.description =
+        out.finish(fmt::format("{}: {} on {}, {} method{}", expression_words(catalogue, request.expression),
+                               source_words(request), request.target, method.name, magnitude_words(method.magnitude)),
+                   columns, 50);
+    return figure;
+}
+
+void check_series(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
+                  std::span<const std::string> expressions, std::span<const double> magnitudes) {
+    if (expressions.empty() || magnitudes.empty())
+        throw InputError(fmt::format("a series of {} expressions at {} magnitudes; give one or more of each",
+                                     expressions.size(), magnitudes.size()));
+    auto each = request;
+    std::set<std::string> meshes;
+    for (const auto& expression : expressions) {
+        for (const double magnitude : magnitudes) {
+            if (!std::isfinite(magnitude) || magnitude < 0)
+                throw InputError(
+                    fmt::format("magnitude {} of the series: give numbers of 0 (neutral) or more", magnitude));
+            if (!meshes.insert(series_mesh(facs::expression_name(catalogue, expression), magnitude)).second)
+                throw InputError(
+                    fmt::format("expression '{}' at magnitude {} stands twice in the series, or as near "
+                                "as makes no difference; give each once",
+                                expression, magnitude));
+        }
+        each.expression = expression;
+        (void)compared_scans(workspace, catalogue, each);
+    }
+}
+
+ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCatalogue& catalogue,
+                                        const ComparisonRequest& request, std::span<const std::string> expressions,
+                                        std::span<const double> magnitudes, const fs::path& folder) {
+    check_series(workspace, catalogue, request, expressions, magnitudes);
+    ComparisonFigure figure;
+    const auto neutral = workspace.face(workspace.neutral(request.target));
+    const auto face = target_face(neutral, request.method);
+    const Point centre_mm = centre_of(neutral.grid, request.bridged);
+    FigureFolder out(folder, request);
+    std::vector<std::string> words;
+    for (const auto& expression : expressions) {
+        const auto model = modeling::model_from_workspace(workspace, catalogue, expression,
+                                                          source_of(workspace, request), request.method.model);
+        words.push_back(expression_words(catalogue, expression));
+        add_left_out(figure, model);
+        add_unusable(figure, model);
+        for (const double magnitude : magnitudes) {
+            const auto animated = animated_face(face, model, request.method, magnitude);
+            add_remarks(figure.remarks, animated.remarks);
+            const auto name = series_mesh(model.expression, magnitude);
+            io::write_mesh(out.file(name), animation::to_mesh(animated, face, {.bridged = request.bridged}));
+            out.add_panel(name, fmt::format("{}, m = {:g}", model.expression, magnitude), centre_mm);
+        }
+    }
+    figure.panels = out.panels();
+    figure.description = out.finish(fmt::format("{} by magnitude: {} on {}, {} method", fmt::join(words, "; "),
+                                                source_words(request), request.target, request.method.name),
+                                    static_cast<int>(magnitudes.size()), 50);
+    return figure;
+}
+
+}  // namespace mimik::report

@@ -1,0 +1,198 @@
+#include "report/quality_sheet.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/parallel.h"
+#include "io/json_values.h"
+#include "io/landmark_io.h"
+#include "io/mesh_io.h"
+
+namespace mimik::report {
+
+using preprocessing::Face;
+using preprocessing::Workspace;
+
+using database::ScanId;
+using geometry::Point;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Part of every mark: raise it when a sheet looks different for the same faces.
+constexpr int sheet_version = 1;
+// A mark names the neutrals of all subjects with sizes and times.
+constexpr std::uintmax_t most_mark_bytes = 1 << 24;
+constexpr std::array<std::uint8_t, 3> measured_colour = {222, 196, 178}, bridged_colour = {112, 172, 104};
+
+/// One subject's sheet and the files beside it.
+class Sheet {
+public:
+    Sheet(const Workspace& workspace, std::string subject)
+        : workspace_(workspace), subject_(std::move(subject)), folder_(workspace.root() / "sheets") {
+        for (const auto& id : workspace.scans())
+            if (id.subject == subject_) scans_.push_back(id);
+    }
+
+    [[nodiscard]] bool up_to_date() const {
+        std::error_code error;
+        if (!fs::is_regular_file(file(".done"), error)) return false;
+        try {
+            const auto expected = done_text();
+            return base::read_text(file(".done"), expected.size()) == expected;
+        } catch (const InputError&) {
+            return false;  // unreadable: drawn again
+        }
+    }
+
+    /// @return what went wrong; empty: nothing
+    [[nodiscard]] std::string make(const DrawFigure& draw) const {
+        remove();  // a sheet that shows other faces than there are is worse than none
+        auto fault = draw(write_parts(), file(".png"));
+        fs::remove_all(parts());
+        if (fault.empty()) base::write_atomically(file(".done"), done_text());
+        return fault;
+    }
+
+    void remove() const {
+        std::error_code ignored;
+        for (const char* suffix : {".done", ".png"}) fs::remove(file(suffix), ignored);
+        fs::remove_all(parts(), ignored);  // of a run that was killed
+    }
+
+private:
+    [[nodiscard]] fs::path file(const char* suffix) const { return folder_ / (subject_ + suffix); }
+    [[nodiscard]] fs::path parts() const { return file(".parts"); }
+
+    /// What the sheet was drawn from: the marks of its faces, and how long it is itself.
+    [[nodiscard]] std::string done_text() const {
+        std::error_code error;
+        const auto bytes = fs::file_size(file(".png"), error);
+        auto text = fmt::format("sheet {} png {}\n", sheet_version, error ? 0 : bytes);
+        for (const auto& id : scans_) {
+            auto mark = workspace_.stem(id);
+            text += id.name() + " " + base::read_text(mark += ".done", most_mark_bytes);
+        }
+        return text;
+    }
+
+    [[nodiscard]] static std::string caption(const Face& face, bool first_neutral) {
+        const auto share = [&](geometry::VertexOrigin origin) {
+            return 100.0 * static_cast<double>(std::count(face.grid.origin.begin(), face.grid.origin.end(), origin)) /
+                   static_cast<double>(face.grid.size());
+        };
+        return fmt::format("{}_{}\n{:.0f} % measured, {:.1f} % bridged\n{}", face.id.group_and_code(),
+                           face.id.repetition, share(geometry::VertexOrigin::measured),
+                           share(geometry::VertexOrigin::bridged),
+                           first_neutral ? std::string("the others are aligned to it")
+                                         : fmt::format("aligned to {:.2f} mm rms", face.alignment_rms_mm));
+    }
+
+    /// Coloured meshes, landmarks and the description. @return the description
+    [[nodiscard]] fs::path write_parts() const {
+        auto panels = nlohmann::ordered_json::array();
+        const auto first = workspace_.neutral(subject_);
+        Point centre_mm = Point::Zero();
+        auto order = scans_;
+        std::stable_partition(order.begin(), order.end(), [&](const ScanId& id) { return id == first; });
+        for (const auto& id : order) {
+            const auto face = workspace_.face(id);
+            auto mesh = geometry::to_mesh(face.grid);
+            Point low = Point::Constant(std::numeric_limits<double>::infinity()), high = -low;
+            for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+                auto& p = mesh.vertices_mm[v];
+                p = face.neutral_from_scan * p;
+                low = low.cwiseMin(p);
+                high = high.cwiseMax(p);
+                const bool measured =
+                    mesh.attributes.front().values[v] == static_cast<double>(geometry::VertexOrigin::measured);
+                mesh.colours.push_back(measured ? measured_colour : bridged_colour);
+            }
+            if (id == first) centre_mm = 0.5 * (low + high);
+            io::write_mesh(parts() / (id.name() + ".ply"), mesh);
+            io::write_landmarks(parts() / (id.name() + ".csv"),
+                                geometry::transformed(face.landmarks, face.neutral_from_scan));
+            panels.push_back({{"mesh", id.name() + ".ply"},
+                              {"landmarks", id.name() + ".csv"},
+                              {"caption", caption(face, id == first)},
+                              {"centre_mm", io::to_json(centre_mm)}});
+        }
+        const nlohmann::ordered_json document = {
+            {"schema", 1},
+            {"title", fmt::format("{}: {} scans; landmarks blue, bridged surface green", subject_, order.size())},
+            {"panel_width_px", 270},
+            {"panel_height_px", 320},
+            {"font_size_px", 15},
+            {"scale_bar_mm", 50},
+            {"panels", panels}};
+        auto description = parts() / "figure.json";
+        base::write_atomically(description, io::json_text(document));
+        return description;
+    }
+
+    const Workspace& workspace_;
+    std::string subject_;
+    fs::path folder_;
+    std::vector<ScanId> scans_;
+};
+
+std::vector<fs::path> files_of_sheets(const Workspace& workspace) {
+    std::error_code none;
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(workspace.root() / "sheets", none)) found.push_back(entry.path());
+    return found;
+}
+
+}  // namespace
+
+void remove_hidden_sheets(const Workspace& workspace) {
+    // Also of subjects that this workspace has no scan of any more.
+    for (const auto& path : files_of_sheets(workspace))
+        if (const auto subject = path.stem().string(); workspace.hidden(subject)) Sheet(workspace, subject).remove();
+}
+
+QualitySheetReport draw_quality_sheets(const Workspace& workspace, const DrawFigure& draw,
+                                       const std::function<void(const std::string&)>& progress) {
+    remove_hidden_sheets(workspace);
+    std::error_code none;
+    for (const auto& path : files_of_sheets(workspace))  // of runs that were killed
+        if (path.extension() == ".parts") fs::remove_all(path, none);
+
+    std::vector<std::string> subjects;
+    for (const auto& subject : workspace.subjects())
+        if (!workspace.hidden(subject)) subjects.push_back(subject);
+    enum class Outcome { drawn, up_to_date, failed };
+    std::vector<Outcome> outcomes(subjects.size(), Outcome::failed);
+    std::vector<std::string> faults(subjects.size());
+    base::parallel_for(subjects.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t s = begin; s < end; ++s) {
+            try {
+                const Sheet sheet(workspace, subjects[s]);
+                if (sheet.up_to_date()) {
+                    outcomes[s] = Outcome::up_to_date;
+                } else {
+                    faults[s] = sheet.make(draw);
+                    if (faults[s].empty()) outcomes[s] = Outcome::drawn;
+                }
+            } catch (const std::exception& e) {
+                faults[s] = e.what();
+            }
+            if (progress) progress(subjects[s]);
+        }
+    });
+    QualitySheetReport report;
+    for (std::size_t s = 0; s < subjects.size(); ++s) {
+        if (outcomes[s] == Outcome::drawn) ++report.drawn;
+        if (outcomes[s] == Outcome::up_to_date) ++report.up_to_date;
+        if (outcomes[s] == Outcome::failed) report.failures.push_back(subjects[s] + ": no quality sheet: " + faults[s]);
+    }
+    return report;
+}
+
+}  // namespace mimik::report

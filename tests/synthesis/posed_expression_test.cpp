@@ -1,0 +1,72 @@
+#include "synthesis/posed_expression.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/errors.h"
+
+namespace mimik::synthesis {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Expression, smile_has_both_sides_and_its_one_sided_form_only_its_own) {
+    const auto smile = make_expression("LFAU_12");
+    ASSERT_EQ(smile.main_shapes.size(), 2U);
+    EXPECT_EQ(smile.main_shapes[0].shape, "mouthSmile_L");
+    EXPECT_DOUBLE_EQ(smile.main_shapes[0].weight, 0.70);
+    const auto left = make_expression("12l");
+    EXPECT_EQ(left.code, "12L");
+    for (const char* spelling : {"AU12_L", "au12l", "LFAU_12L"}) EXPECT_EQ(make_expression(spelling).code, "12L");
+    for (const auto& part : left.co_activated) EXPECT_TRUE(part.shape.ends_with("_L")) << part.shape;
+    ASSERT_EQ(left.main_shapes.size(), 1U);
+    EXPECT_EQ(left.main_shapes[0].shape, "mouthSmile_L");
+}
+
+TEST(Expression, groups_follow_the_face_half_and_lists_keep_their_order_without_doubles) {
+    EXPECT_EQ(make_expression("4").group, "UFAU");
+    EXPECT_EQ(make_expression("10").group, "LFAU");
+    EXPECT_EQ(make_expression("10").main_shapes[0].shape, "mouthUpperUp_L");
+    EXPECT_EQ(make_expression("happy").group, "E");
+    const auto list = make_expressions("12,thesis,12");
+    ASSERT_EQ(list.size(), 10U);
+    EXPECT_EQ(list.front().code, "12");
+    EXPECT_EQ(make_expressions("all").size(), 10U + 6U + 16U);
+}
+
+TEST(Expression, a_number_with_leading_zeros_is_the_number) {
+    for (const char* spelling : {"AU04", "04", "UFAU_04"}) EXPECT_EQ(make_expression(spelling).code, "4") << spelling;
+    EXPECT_EQ(make_expressions("12,012,AU012").size(), 1U);
+}
+
+TEST(Expression, a_jaw_goes_to_the_side_that_is_named_and_needs_one) {
+    EXPECT_EQ(make_expression("30L").main_shapes.at(0).shape, "jawLeft");
+    EXPECT_EQ(make_expression("30R").main_shapes.at(0).shape, "jawRight");
+    EXPECT_EQ(make_expression("29").main_shapes.at(0).shape, "jawForward");
+    try {
+        (void)make_expression("30");
+        FAIL();
+    } catch (const InputError& e) {
+        EXPECT_THAT(e.what(), HasSubstr("30L or 30R"));
+    }
+}
+
+TEST(Expression, unknown_codes_are_refused_with_the_codes_there_are) {
+    try {
+        (void)make_expression("LFAU_99");
+        FAIL();
+    } catch (const InputError& e) {
+        EXPECT_THAT(e.what(), HasSubstr("'LFAU_99'"));
+        EXPECT_THAT(e.what(), HasSubstr("SURPRISE"));
+    }
+    for (const char* two : {"1 2", "1-2", "AU1_2"}) EXPECT_THROW((void)make_expression(two), InputError) << two;
+    try {
+        (void)make_expression("17L");
+        FAIL();
+    } catch (const InputError& e) {
+        EXPECT_THAT(e.what(), HasSubstr("has no sides"));
+    }
+}
+
+}  // namespace
+}  // namespace mimik::synthesis
