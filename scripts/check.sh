@@ -81,6 +81,9 @@ check_rules() {
   grep -rnE --include=CMakeLists.txt --include='*.cmake' --include=CMakePresets.json -e '-march=|-mavx|-mfma|-ffast-math' \
     CMakeLists.txt CMakePresets.json cmake tests bench "${rooms[@]}" &&
     fail "rules: no such flag (Eigen and the libraries disagree then); SIMD goes through run-time dispatch: see above"
+  for room in "${rooms[@]}"; do
+    grep -qE "^HeaderFilterRegex: .*[(|]$room[|)]" .clang-tidy || fail "rules: HeaderFilterRegex in .clang-tidy does not name $room"
+  done
   sources | xargs -0 wc -l | awk '$2 != "total" && $1 > 700' | grep . && fail "rules: sources of more than 700 lines: see above"
   return 0
 }
