@@ -2,10 +2,13 @@
 #
 #   mimik_add_module(animation
 #     SOURCES warp.cpp ...
+#     PRIVATE_HEADERS sums.h formats
 #     PUBLIC  mimik::modeling
 #     PRIVATE some::library)
 #
-# Headers of the folder are installed as <name>/*.h; include them as "animation/warp.h".
+# Headers of the folder are installed as <name>/*.h; include them as "animation/warp.h". Not installed are those that end in
+# -inl.h and PRIVATE_HEADERS: headers, or folders of headers, that other rooms of this tree may use and nobody else. They
+# alone may include other libraries than Eigen (scripts/check.sh rules), whose paths an installed target does not hand on.
 add_library(mimik_warnings INTERFACE)
 # -Wrestrict: GCC 12 cries wolf on std::string + (GCC bug 105651).
 target_compile_options(mimik_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
@@ -14,6 +17,17 @@ if(MIMIK_SANITIZE)
   add_compile_options(-fsanitize=${MIMIK_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
     $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitizers.ignore>)
   add_link_options(-fsanitize=${MIMIK_SANITIZE})
+endif()
+
+# base/executor_tbb.cpp or base/executor_threads.cpp.
+set_property(CACHE MIMIK_EXECUTOR PROPERTY STRINGS tbb threads)
+if(MIMIK_EXECUTOR STREQUAL "tbb")
+  set(MIMIK_EXECUTOR_LIBRARIES TBB::tbb)
+elseif(MIMIK_EXECUTOR STREQUAL "threads")
+  set(MIMIK_EXECUTOR_LIBRARIES Threads::Threads)
+  add_compile_definitions(MIMIK_EXECUTOR_THREADS)
+else()
+  message(FATAL_ERROR "MIMIK_EXECUTOR is '${MIMIK_EXECUTOR}'; give tbb or threads")
 endif()
 
 # For what only calls the code under test: with sanitizers it takes half the time to compile without optimisation.
@@ -52,7 +66,7 @@ function(mimik_rooms_below room result)
 endfunction()
 
 function(mimik_add_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PRIVATE_HEADERS;PUBLIC;PRIVATE" ${ARGN})
   mimik_rooms_below(${name} allowed)
   foreach(dependency IN LISTS ARG_PUBLIC ARG_PRIVATE)
     if(dependency MATCHES "^mimik::(.+)$" AND NOT CMAKE_MATCH_1 IN_LIST allowed)
@@ -68,7 +82,18 @@ function(mimik_add_module name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/mimik>)
   target_link_libraries(mimik_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:mimik_warnings>)
   install(TARGETS mimik_${name} EXPORT mimikTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mimik/${name} FILES_MATCHING PATTERN "*.h")
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.h)
+  list(FILTER headers EXCLUDE REGEX "-inl\\.h$")
+  foreach(private IN LISTS ARG_PRIVATE_HEADERS)
+    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${private})
+      message(FATAL_ERROR "room '${name}': PRIVATE_HEADERS names '${private}', which is not there")
+    endif()
+    list(FILTER headers EXCLUDE REGEX "^${private}(/|$)")
+  endforeach()
+  foreach(header IN LISTS headers)
+    get_filename_component(place ${header} DIRECTORY)
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mimik/${name}/${place})
+  endforeach()
 endfunction()
 
 # mimik_add_program(mimik SOURCES main.cpp LINK mimik::evaluation ...)

@@ -29,9 +29,10 @@ fi
 
 scripts/setup.sh
 launcher=$(command -v ccache || true)
-cmake --preset release -DMIMIK_TESTS=OFF -B build/reproduce ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"}
-cmake --build build/reproduce --target mimik mimik-figure
-mimik=$PWD/build/reproduce/bin/mimik
+# The folder of scripts/test.sh: what the one has built the other need not.
+cmake --preset release ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"}
+cmake --build --preset release --target mimik mimik-figure
+mimik=$PWD/build/release/bin/mimik
 
 step() { printf '\n[%s/%s] %s\n' "$1" 6 "$2"; }
 mkdir -p "$out"
@@ -75,4 +76,5 @@ step 5 "Score thesis, default and mean beside doing nothing, on every ordered pa
 step 6 "Check the scans that were made, as 'mimik scans --check' does"
 "$mimik" scans "$out/database" --check --no-catalogue --quiet | tail -n 3 || true
 
-printf '\nDone in %d s. Table: %s  Figures: %s  Faces: %s\n' $((SECONDS - begin)) "$out/scores/scores.md" "$out/figures/" "$out/animated/"
+printf '\nDone in %d s. Table: %s  Figures: %s  Faces: %s  Database: %s  Program: %s\n' $((SECONDS - begin)) \
+  "$out/scores/scores.md" "$out/figures/" "$out/animated/" "$out/database/" "$mimik"

@@ -9,9 +9,9 @@ packages=(
   build-essential cmake ninja-build pkg-config git ca-certificates
   # geometry and numbers
   libeigen3-dev libtbb-dev libcgal-dev libgmp-dev libnanoflann-dev libembree-dev libhwy-dev
-  # files, options, the catalogue of scans
+  # files, options, the scan index
   libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libpng-dev libjpeg62-turbo-dev zlib1g-dev
-  libpugixml-dev liblzf-dev libtinygltf-dev libsqlite3-dev libxxhash-dev
+  libpugixml-dev liblzf-dev libsqlite3-dev
   # figures: VTK, an OpenGL that needs no display, and letters; xvfb is the second way where EGL is missing
   libvtk9-dev libgl-dev libegl-dev libx11-dev libegl1 libegl-mesa0 libgl1-mesa-dri xvfb fonts-dejavu-core
   # tests

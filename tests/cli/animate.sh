@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# animate.sh MIMIK FOLDER SHARED: what a shell meets of 'mimik animate'.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
+
+borrow_workspace
+"$mimik" animate work1 --source bs000 --target bs001 --au 12L,4:0.5 -o face.glb --quiet
+"$mimik" animate work1 --source bs000 --target bs001 --au AU12_L --au au4:0.5 -o named.glb --quiet
+cmp face.glb named.glb
+claim "an expression may be typed in every way in which it is written"
+"$mimik" animate work1 --source BS000 --target Bs001 --au 12L,4:0.5 -o face2.glb --quiet
+cmp face.glb face2.glb
+expect_code 2 "'BS077'" "$mimik" animate work1 --target BS077 --au 12 -o nothing.ply
+claim "subjects are found in capitals too, and one that is not there is named as it was typed"
+
+echo '{"schema": 1}' >scores.json
+expect_code 2 "scores.json: is no expression model; give a file of 'mimik model'" "$mimik" animate work1 --target bs001 --model scores.json -o nothing.ply
+expect_code 2 "nothing to animate" "$mimik" animate work1 --target bs001 -o nothing.ply
+expect_code 3 "AU12 at magnitude 1e+300" "$mimik" animate work1 --source bs000 --target bs001 --au 12:1e300 -o nothing.ply
+expect_code 2 "AU99 is not in the catalogue; there are: 1, 2" "$mimik" animate work1 --target bs001 --au 99 -o nothing.ply
+expect_code 2 "no scan of expression '17'" "$mimik" animate work1 --source bs000 --target bs001 --au 17 -o nothing.ply
+expect_code 2 "bs000, bs001, bs002" "$mimik" animate work1 --source bs000 --target bs009 --au 12 -o nothing.ply
+expect_code 2 $'the thesis method has no mean\nbs000' "$mimik" animate work1 --target bs001 --au 12 -o nothing.ply --method thesis
+[ ! -e nothing.ply ]
+claim "wrong input is named, ends with 2 (3: the numbers allow no answer) and leaves nothing behind"
+
+for extension in ply obj vtp; do
+  "$mimik" animate work1 --source bs000 --target bs001 --au 12 --method thesis -o "face.$extension" --quiet
+  [ -s "face.$extension" ]
+done
+claim "faces are written in every format"
+
+"$mimik" animate work1 --source bs000 --target bs001 --au 12 --keep-bridged -o kept.obj --json >kept.json
+grep -q '"vertex_values": "kept_vertices.csv"' kept.json && grep -q 'are in kept_vertices.csv' kept.json || fail "no word of the table"
+[ "$(head -n 1 kept_vertices.csv)" = vertex,displacement_mm_x,displacement_mm_y,displacement_mm_z,origin ] || fail "columns"
+[ "$(tail -n +2 kept_vertices.csv | wc -l)" -eq "$(grep -c '^v ' kept.obj)" ] || fail "rows"
+grep -q ',1$' kept_vertices.csv && grep -q ',2$' kept_vertices.csv || fail "bridged vertices are not marked"
+"$mimik" animate work1 --source bs000 --target bs001 --au 12 --keep-bridged -o kept.glb --quiet
+grep -qa '"_ORIGIN"' kept.glb && grep -qa '"_DISPLACEMENT_MM"' kept.glb || fail "GLB without values per vertex"
+claim "every format says how each vertex moved and which were bridged, an OBJ in the table beside it"
+
+largest() { sed -n 's/^ *"largest_displacement_mm": \(.*\),/\1/p' "$1" | tail -n 1; }
+for frame in scanner average; do
+  "$mimik" animate work1 --source bs000 --target bs001 --au 12 --frame $frame --keep-bridged -o frame.ply --json >$frame.json
+  "$mimik" animate work1 --source bs000 --target bs001 --au 12:0 --frame $frame --keep-bridged -o frame0.ply --quiet
+done
+[ -n "$(largest scanner.json)" ] && [ "$(largest scanner.json)" != "$(largest average.json)" ] || fail "the same length in both frames"
+claim "lengths in the result are those of the frame that is written"
+
+"$mimik" synthesize lips --subjects 2 --expressions 1,12,27 --seed 5 --quiet  # the inner lips of bs001 are 0.7 mm apart
+"$mimik" preprocess lips -o lips_work --quiet
+for unit in 1 12 27; do
+  "$mimik" animate lips_work --source bs000 --target bs001 --au $unit -o lips.ply --json >lips$unit.json
+done
+grep -q '"AU27 pulls the lips apart, but those of bs001_N_N_0 are closed' lips27.json || fail "no word of closed lips"
+expect_code 0 "note: AU27 pulls the lips apart" "$mimik" animate lips_work --source bs000 --target bs001 --au 27 -o lips.ply
+! grep -q 'lips apart' lips1.json lips12.json || fail "a note on lips that stay together"
+claim "who opens a closed mouth is told that it stays one piece, and nobody else"
+
+"$mimik" animate work1 --source bs000 --target bs001 --au 12:0 -o neutral.ply --quiet
+"$mimik" distance neutral.ply neutral.ply --json | awk '/"max"/ { sub(/.*: /, ""); if ($0 + 0 > 1e-6) exit 1 }'
+claim "a face is nowhere off itself"  # a vertex that no polygon uses would be
+"$mimik" distance face.ply neutral.ply --json >distance.json
+grep -q '"units": "mm"' distance.json
+claim "faces can be measured"
+
+echo '{}' >work1/faces/bs000/bs000_LFAU_12_0.json
+expect_code 1 $'left out of the mean\nbs000_LFAU_12_0' "$mimik" animate work1 --au 12 -o mean.ply --target bs001 --quiet
+code=0
+"$mimik" animate work1 --target bs001 --au 12 -o mean.ply --json >mean.json 2>/dev/null || code=$?
+[ "$code" -eq 1 ] && grep -A1 '"failures": \[' mean.json | grep -q bs000_LFAU_12_0 || fail "no failure in the JSON"
+[ -s mean.ply ]
+claim "a scan that a mean cannot use is a failure (1), and the mean is of the others"

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# evaluate.sh MIMIK FOLDER SHARED: what a shell meets of 'mimik evaluate'.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
+
+borrow_workspace
+"$mimik" evaluate work1 --expression 4,12 --method default,mean --no-reference -o scores --json --quiet >scores.json
+for name in scores.md scores.csv scores.json cases.csv; do [ -s "scores/$name" ] || fail "scores/$name is not there"; done
+cmp scores.json scores/scores.json
+claim "scores are written as text, table and JSON, and JSON is what is printed"
+# No comma stands in a subject, an expression or a method: a row is split at every comma that is not within quotes.
+awk '
+  { row = $0; gsub(/"([^"]|"")*"/, "", row); columns = gsub(/,/, "", row) }
+  NR == 1 { wanted = columns; if ($0 !~ /(^|,)source,/ || $0 !~ /,target,/ || $0 !~ /,metric,/ || $0 !~ /,value(,|$)/) bad = 1 }
+  NR > 1 && columns != wanted { print FILENAME ":" NR ": " $0; bad = 1 }
+  NR > 1 && seen[$0]++ { print FILENAME ":" NR ": twice: " $0; bad = 1 }
+  END { exit bad || NR < 2 }' scores/cases.csv || { head -n 5 scores/cases.csv; fail "rows of cases.csv"; }
+for pair in bs000,bs001 bs001,bs000 bs002,bs000; do grep -q "$pair" scores/cases.csv || fail "no row of $pair"; done
+claim "every case has its rows: a source on a target, a metric, a value"
+
+"$mimik" evaluate work1 --au au12_l --dry-run --quiet >/dev/null
+claim "an expression may be typed in every way in which it is written"
+expect_code 2 "asked for twice" "$mimik" evaluate work1 --expression 12,AU12
+expect_code 2 "--method: 'thesis' is asked for twice" "$mimik" evaluate work1 --expression 12 --method thesis,mean,thesis
+expect_code 2 "no finished workspace" "$mimik" evaluate "$shared/db1"
+expect_code 2 "'99'" "$mimik" evaluate work1 --expression 99 --dry-run
+expect_plan_in_json "evaluate work1 --expression 12"
+claim "wrong input is named and ends with 2"
+
+expect_refusal_of_bad_folders "evaluate work1 --expression 12 -o"
+expect_refusal_of_bad_outputs "evaluate work1 --expression 12"
+expect_code 2 "file/scores: the folder cannot be made" "$mimik" evaluate work1 --expression 12 -o file/scores
+[ ! -s out.txt ]
+expect_code 2 "--output: is empty; give a folder" "$mimik" evaluate work1 --expression 12 -o ""
+mkdir empty
+"$mimik" evaluate work1 --expression 12 -o empty --dry-run --quiet >/dev/null
+[ -z "$(ls empty)" ]
+expect_refusal_of_full_disk "evaluate work1 --expression 12 --no-reference --no-whole-face --json"
+claim "a folder that takes no scores is found out before the work and in a dry run, which makes none, and a disk that takes no result ends with 2"
