@@ -44,38 +44,10 @@ const ControlPoint* find(const std::vector<ControlPoint>& points, const std::str
     return it == points.end() ? nullptr : &*it;
 }
 
-TEST(facs::Placement, of_a_landmark_is_that_landmark_on_the_side_asked_for) {
-    const facs::Placement corner{{{"mouth_corner", 1.0}}, 0, 0};
-    EXPECT_EQ(facs::place(corner, facs::reference_landmarks(), Side::left),
-              facs::reference_landmarks().position_mm("mouth_corner_left"));
-    EXPECT_EQ(facs::place(corner, facs::reference_landmarks(), Side::right),
-              facs::reference_landmarks().position_mm("mouth_corner_right"));
-}
-
-TEST(facs::Placement, offsets_are_outer_eye_distances_away_from_the_midline) {
-    const facs::Placement beside{{{"mouth_corner", 1.0}}, 0.1, -0.2};
-    const double unit = 89.0;  // of the reference face: eye corners at -44.5 and 44.5 mm, same height and depth
-    const auto left = facs::place(beside, facs::reference_landmarks(), Side::left),
-               right = facs::place(beside, facs::reference_landmarks(), Side::right);
-    EXPECT_NEAR(left.x(), 25.5 + 0.1 * unit, 1e-9);
-    EXPECT_NEAR(right.x(), -25.5 - 0.1 * unit, 1e-9);
-    EXPECT_NEAR(left.y(), -39 - 0.2 * unit, 1e-9);
-}
-
-TEST(facs::Placement, misses_no_landmark_in_silence) {
-    const geometry::Landmarks few({{"eye_outer_left", {44, 0, 0}, ""}, {"eye_outer_right", {-44, 0, 0}, ""}});
-    try {
-        (void)facs::place({{{"chin", 1.0}}, 0, 0}, few, Side::left);
-        FAIL() << "placed";
-    } catch (const InputError& e) {
-        EXPECT_THAT(e.what(), HasSubstr("chin"));
-    }
-}
-
 TEST(ControlPoints, of_every_unit_lie_on_the_surface_and_apart) {
     const auto surface = bowl();
     for (const auto& unit : facs::builtin_catalogue().action_units()) {
-        const auto placed = place_controls(facs::builtin_catalogue(), std::to_string(unit.number),
+        const auto placed = place_controls(facs::builtin_catalogue(), test::expression(std::to_string(unit.number)),
                                            facs::reference_landmarks(), surface);
         EXPECT_GE(placed.controls.size(), 12U) << unit.number;
         std::vector<ControlPoint> all = placed.controls;
@@ -92,7 +64,7 @@ TEST(ControlPoints, of_every_unit_lie_on_the_surface_and_apart) {
 TEST(ControlPoints, are_symmetric_on_a_symmetric_face) {
     const auto surface = bowl();
     for (const auto& unit : facs::builtin_catalogue().action_units()) {
-        const auto placed = place_controls(facs::builtin_catalogue(), std::to_string(unit.number),
+        const auto placed = place_controls(facs::builtin_catalogue(), test::expression(std::to_string(unit.number)),
                                            facs::reference_landmarks(), surface);
         for (const auto* list : {&placed.controls, &placed.anchors})
             for (const auto& point : *list) {
@@ -131,8 +103,8 @@ TEST(ControlPoints, anchors_stand_outside_the_zone_by_the_margin) {
 
 TEST(ControlPoints, of_the_thesis_number_12_to_26_for_each_of_its_units) {
     for (const int number : {1, 2, 4, 12, 14, 15, 17, 20}) {
-        const auto placed =
-            place_controls(facs::builtin_catalogue(), std::to_string(number), facs::reference_landmarks(), bowl());
+        const auto placed = place_controls(facs::builtin_catalogue(), test::expression(std::to_string(number)),
+                                           facs::reference_landmarks(), bowl());
         const auto anatomical = std::count_if(placed.controls.begin(), placed.controls.end(),
                                               [](const auto& p) { return p.kind != facs::ControlKind::coverage; });
         EXPECT_GE(anatomical, 12) << number;
@@ -188,21 +160,6 @@ TEST(ControlPoints, of_a_kind_that_is_not_wanted_are_not_placed_and_the_others_s
         EXPECT_EQ(few.controls[k].position_mm, all.controls[k].position_mm);
     }
     EXPECT_EQ(all.controls[few.controls.size()].kind, facs::ControlKind::coverage);
-}
-
-TEST(ExpressionZone, holds_the_part_that_moves_and_not_the_rest) {
-    const auto inside = [](const std::string& code, const std::string& mark) {
-        return facs::ExpressionZone(facs::builtin_catalogue(), test::expression(code), facs::reference_landmarks())
-                   .distance(facs::reference_landmarks().position_mm(mark)) <= 0;
-    };
-    EXPECT_TRUE(inside("12", "mouth_corner_left"));
-    EXPECT_TRUE(inside("12", "mouth_corner_right"));
-    EXPECT_FALSE(inside("12L", "mouth_corner_right"));
-    EXPECT_FALSE(inside("12", "brow_middle_left"));
-    EXPECT_TRUE(inside("1", "brow_inner_left"));
-    EXPECT_FALSE(inside("1", "chin"));
-    EXPECT_TRUE(inside("17", "chin"));
-    EXPECT_FALSE(inside("17", "nose_tip"));
 }
 
 }  // namespace
