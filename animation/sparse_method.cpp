@@ -32,8 +32,13 @@ public:
     SparseTransfer(LessonPointer lesson, const AnimationOptions& options)
         : lesson_(std::move(lesson)), options_(options) {}
     [[nodiscard]] geometry::DisplacementField on(const PreparedTarget& target) const override {
-        const WeightedExpression weighted{&model_of(lesson_), 1.0};
-        return animate(target, std::span(&weighted, 1), options_).field;
+        const auto& model = model_of(lesson_);
+        auto field = expression_field(target, model, options_);
+        for (const auto& displacement : field.mm)
+            if (!displacement.allFinite())
+                throw NumericalError(
+                    fmt::format("{}: a displacement is too large for a number", model.expression.name()));
+        return field;
     }
 
 private:

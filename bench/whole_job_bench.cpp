@@ -9,10 +9,12 @@
 #include "database/bnt.h"
 #include "database/bosphorus_landmarks.h"
 #include "evaluation/surface_distance.h"
-#include "modeling/control_points.h"
+#include "preprocessing/neutral_alignment.h"
 #include "preprocessing/normalisation.h"
-#include "preprocessing/workspace.h"
+#include "preprocessing/preprocess_scan.h"
+#include "preprocessing/stable_region.h"
 #include "tests/support/analytic_workspace.h"
+#include "tests/support/expressions.h"
 
 // What a researcher waits for: a scan from its files to a normalised grid, and one transfer with its evaluation in both
 // directions. Faces in closed form with a scanner's lattice, noise and size; no peer does the same job.
@@ -89,7 +91,7 @@ Face neutral_face(const database::ScanEntry& entry) {
 }
 
 void tie(Face& face, const Face& neutral) {
-    const auto stable = modeling::stable_vertices(facs::builtin_catalogue(), face.id.code, neutral);
+    const auto stable = preprocessing::stable_vertices(facs::builtin_catalogue(), face.id.expression(), neutral);
     preprocessing::align_to_neutral(face, neutral, stable);
     face.average_from_scan = neutral.average_from_scan * face.neutral_from_scan;
     face.average_from_scan_affine = preprocessing::affine_normalisation(face.snapped_landmarks, average().landmarks);
@@ -113,7 +115,8 @@ const Faces& faces() {
 }
 
 modeling::ExpressionModel measured() {
-    return modeling::measure_expression(facs::builtin_catalogue(), "12", average(), faces().neutral, faces().smiling);
+    return modeling::measure_expression(facs::builtin_catalogue(), test::expression("12"), average(), faces().neutral,
+                                        faces().smiling);
 }
 
 /// The target's real expressive scan, in the frame of its neutral.
@@ -131,14 +134,14 @@ struct RealScan {
     }
 };
 
-double transfer(const animation::TargetFace& target, const modeling::ExpressionModel& model, const RealScan& real) {
+double transfer(const animation::PreparedTarget& target, const modeling::ExpressionModel& model, const RealScan& real) {
     const animation::WeightedExpression weighted{&model, 1.0};
     const auto animated = animation::animate(target, std::span(&weighted, 1));
-    std::vector<std::uint8_t> counts;
-    for (std::size_t v = 0; v < animated.grid.size(); ++v) counts.push_back(animated.grid.measured(v));
-    const geometry::SurfaceIndex surface(animated.grid.vertices_mm,
-                                         geometry::triangles(animated.grid, geometry::BridgedVertices::leave_out));
-    return evaluation::distances_to_surface(animated.grid.vertices_mm, *real.surface, counts).summary.mean_mm +
+    const auto& grid = faces().target.grid;
+    auto moved_mm = grid.vertices_mm;
+    for (std::size_t v = 0; v < moved_mm.size(); ++v) moved_mm[v] += animated.field.mm[v];
+    const geometry::SurfaceIndex surface(moved_mm, geometry::triangles(grid, geometry::BridgedVertices::leave_out));
+    return evaluation::distances_to_surface(moved_mm, *real.surface, target.surface().measured).summary.mean_mm +
            evaluation::distances_to_surface(real.vertices_mm, surface, real.counts).summary.mean_mm;
 }
 
@@ -186,19 +189,22 @@ void mimik_target_made_ready(benchmark::State& state) {
     const auto& made = faces();
     base::set_thread_count(1);
     for (auto _ : state) {
-        benchmark::DoNotOptimize(animation::TargetFace(made.target, modeling::Normalisation::similarity));
+        const animation::PreparedTarget target(made.target);
+        benchmark::DoNotOptimize(target.normalised(modeling::Normalisation::similarity));
         benchmark::DoNotOptimize(RealScan(made.truth));
     }
 }
 void mimik_transfer_and_evaluation_both_ways(benchmark::State& state) {
-    const animation::TargetFace target(faces().target, modeling::Normalisation::similarity);
+    const animation::PreparedTarget target(faces().target);
+    (void)target.normalised(modeling::Normalisation::similarity);
     const RealScan real(faces().truth);
     const auto model = measured();
     base::set_thread_count(1);
     for (auto _ : state) benchmark::DoNotOptimize(transfer(target, model, real));
 }
 void mimik_eight_transfers_threads(benchmark::State& state) {
-    const animation::TargetFace target(faces().target, modeling::Normalisation::similarity);
+    const animation::PreparedTarget target(faces().target);
+    (void)target.normalised(modeling::Normalisation::similarity);
     const RealScan real(faces().truth);
     const auto model = measured();
     base::set_thread_count(static_cast<int>(state.range(0)));

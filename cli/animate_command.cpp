@@ -62,113 +62,146 @@ modeling::RegionLabels region_labels(const preprocessing::Workspace& workspace, 
     return modeling::read_region_labels(file, average);
 }
 
+/// What is put on the target: models, each set to a magnitude.
+struct Chosen {
+    std::vector<modeling::ExpressionModel> models;
+    std::vector<animation::NamedMagnitude> names;  ///< one per model
+    std::vector<std::string> remarks, failures;
+
+    [[nodiscard]] std::vector<animation::WeightedExpression> weighted() const {
+        std::vector<animation::WeightedExpression> expressions;
+        for (std::size_t k = 0; k < models.size(); ++k) expressions.push_back({&models[k], names[k].magnitude});
+        return expressions;
+    }
+};
+
+Chosen choose(const Arguments& arguments, const preprocessing::Workspace& workspace,
+              const facs::FacsCatalogue& catalogue) {
+    Chosen chosen;
+    const auto add = [&](modeling::ExpressionModel model, double magnitude) {
+        const auto& expression = model.expression;
+        chosen.names.push_back({arguments.arkit_names ? facs::arkit_name(catalogue, expression) : expression.name(),
+                                magnitude, facs::arkit_shape(catalogue, expression)});
+        chosen.models.push_back(std::move(model));
+    };
+    const modeling::ExpressionSource source{arguments.source, {arguments.target}};
+    for (const auto& typed : arguments.action_units) {
+        const auto [text, magnitude] = facs::split_magnitude(typed);
+        auto model = modeling::model_from_workspace(workspace, catalogue, catalogue.expression(text), source,
+                                                    arguments.method.model_options());
+        for (const auto& scan : model.unusable_scans)
+            chosen.failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression.name(), scan));
+        add(std::move(model), magnitude);
+    }
+    const auto here = arguments.method.provenance(catalogue, workspace.average());
+    for (const auto& typed : arguments.model_files) {
+        const auto [file, magnitude] =
+            std::filesystem::exists(typed) ? facs::TypedMagnitude{typed, 1.0} : facs::split_magnitude(typed);
+        add(read_model(workspace, file, arguments.target, here, chosen.remarks), magnitude);
+    }
+    return chosen;
+}
+
+animation::AnimationOptions animation_options(const Arguments& arguments, const preprocessing::Workspace& workspace,
+                                              const preprocessing::Face& neutral) {
+    auto options = arguments.method.animation_options();
+    options.combination =
+        arguments.combine == "parallel" ? animation::Combination::parallel : animation::Combination::sum;
+    if (arguments.hold.empty()) return options;
+    const auto labels = region_labels(workspace, arguments.regions);
+    options.keep = modeling::held_weights(labels, workspace.average(), neutral,
+                                          modeling::listed_regions(labels, arguments.hold), options.border_mm);
+    return options;
+}
+
+/// The scan's image, or a remark that it is gone.
+std::filesystem::path texture_of(const preprocessing::Face& neutral, std::vector<std::string>& remarks) {
+    if (neutral.texture_file.empty() || std::filesystem::exists(neutral.texture_file)) return neutral.texture_file;
+    remarks.push_back(fmt::format("texture {} is gone, so the mesh has none", neutral.texture_file.string()));
+    return {};
+}
+
+std::string source_words(const Arguments& arguments) {
+    if (arguments.action_units.empty()) return "model files";
+    return arguments.model_files.empty() ? arguments.source : arguments.source + " and model files";
+}
+
+void print_json(const Arguments& arguments, const preprocessing::Face& neutral, const Chosen& chosen,
+                const geometry::FieldExtent& extent) {
+    auto list = nlohmann::json::array();
+    for (std::size_t k = 0; k < chosen.models.size(); ++k)
+        list.push_back({{"expression", chosen.names[k].name},
+                        {"magnitude", chosen.names[k].magnitude},
+                        {"sources", chosen.models[k].sources},
+                        {"points", chosen.models[k].points.size()},
+                        {"largest_displacement_mm", chosen.models[k].largest_displacement_mm()}});
+    nlohmann::json document = {{"schema", 1},
+                               {"target", neutral.id.name()},
+                               {"source", source_words(arguments)},
+                               {"method", arguments.method.name},
+                               {"frame", arguments.frame},
+                               {"units", "mm"},
+                               {"expressions", list},
+                               {"largest_displacement_mm", extent.largest_displacement_mm},
+                               {"largest_neighbour_step_mm", extent.largest_neighbour_step_mm},
+                               {"remarks", chosen.remarks},
+                               {"failures", chosen.failures},
+                               {"output", arguments.output}};
+    if (const auto values = animation::vertex_values_file(arguments.output); !values.empty())
+        document["vertex_values"] = values.string();
+    std::cout << io::json_text(document);
+}
+
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
-    const auto catalogue = arguments.method.catalogue();
     for (auto* subject : {&arguments.source, &arguments.target}) {
         *subject = subject_named(workspace, *subject);
         workspace.refuse_hidden(*subject);
     }
-
+    const auto catalogue = arguments.method.catalogue();
     const auto model_options = arguments.method.model_options();
-    auto animation_options = arguments.method.animation_options();
-    animation_options.combination =
-        arguments.combine == "parallel" ? animation::Combination::parallel : animation::Combination::sum;
-
-    const modeling::ExpressionSource source{arguments.source, {arguments.target}};
     if (arguments.action_units.empty() && arguments.model_files.empty())
         throw InputError("there is nothing to animate; give --au, such as 12, or --model, a file of 'mimik model'");
-    if (!arguments.action_units.empty()) modeling::check_source(workspace, source, model_options);
+    if (!arguments.action_units.empty())
+        modeling::check_source(workspace, {arguments.source, {arguments.target}}, model_options);
 
     const auto neutral = workspace.face(workspace.neutral(arguments.target));
-    const animation::TargetFace target(neutral, model_options.normalisation, arguments.method.thesis());
-    std::vector<modeling::ExpressionModel> models;
-    std::vector<animation::WeightedExpression> expressions;
-    std::vector<animation::NamedMagnitude> names;
-    std::vector<std::string> remarks, failures;
-    const auto named = [&](const modeling::ExpressionModel& model, double magnitude) {
-        return animation::NamedMagnitude{
-            arguments.arkit_names ? facs::arkit_name(catalogue, model.expression) : model.expression, magnitude,
-            facs::arkit_shape(catalogue, model.expression)};
-    };
-    for (const auto& text : arguments.action_units) {
-        const auto selection = facs::split_magnitude(text);
-        models.push_back(modeling::model_from_workspace(workspace, catalogue, selection.code, source, model_options));
-        for (const auto& scan : models.back().unusable_scans)
-            failures.push_back(fmt::format("{}: left out of the mean: {}", models.back().expression, scan));
-        names.push_back(named(models.back(), selection.magnitude));
-    }
-    const auto here = arguments.method.provenance(catalogue, workspace.average());
-    for (const auto& text : arguments.model_files) {
-        const auto file = std::filesystem::exists(text) ? facs::Selection{text, 1.0} : facs::split_magnitude(text);
-        models.push_back(read_model(workspace, file.code, arguments.target, here, remarks));
-        names.push_back(named(models.back(), file.magnitude));
-    }
-    for (std::size_t k = 0; k < models.size(); ++k) expressions.push_back({&models[k], names[k].magnitude});
-    if (!arguments.hold.empty()) {
-        const auto& average = workspace.average();
-        const auto labels = region_labels(workspace, arguments.regions);
-        animation_options.keep = modeling::held_weights(
-            labels, average, neutral, modeling::listed_regions(labels, arguments.hold), animation_options.border_mm);
-    }
-    const auto animated = animation::animate(target, expressions, animation_options);
+    auto chosen = choose(arguments, workspace, catalogue);
+    const animation::PreparedTarget target(neutral);
+    const auto animated =
+        animation::animate(target, chosen.weighted(), animation_options(arguments, workspace, neutral));
+    auto& remarks = chosen.remarks;
+    remarks.insert(remarks.end(), animated.remarks.begin(), animated.remarks.end());
 
     animation::ExportOptions export_options;
-    export_options.frame =
-        arguments.frame == "average" ? animation::OutputFrame::average : animation::OutputFrame::scanner;
     export_options.bridged =
         arguments.keep_bridged ? geometry::BridgedVertices::keep : geometry::BridgedVertices::leave_out;
-    const auto extent = arguments.frame == "average" ? animation::field_extent(animated.grid, animated.displacement_mm,
-                                                                               target.average_from_scan().linear())
-                                                     : animated.extent;
-    std::filesystem::path texture = neutral.texture_file;
-    remarks.insert(remarks.end(), animated.remarks.begin(), animated.remarks.end());
-    if (!texture.empty() && !std::filesystem::exists(texture)) {
-        remarks.push_back(fmt::format("texture {} is gone, so the mesh has none", texture.string()));
-        texture.clear();
+    auto extent = animated.extent;
+    if (arguments.frame == "average") {
+        export_options.average_from_scan = modeling::average_from_scan(neutral, model_options.normalisation);
+        extent =
+            geometry::field_extent(target.surface(), animated.field.mm, export_options.average_from_scan->linear());
     }
+    const auto texture = texture_of(neutral, remarks);
     for (auto& remark :
-         animation::write_animated_face(arguments.output, animated, target, names, texture, export_options))
+         animation::write_animated_face(arguments.output, animated, neutral, chosen.names, texture, export_options))
         remarks.push_back(std::move(remark));
+    for (const auto& model : chosen.models)
+        for (const auto& reason : model.left_out)
+            remarks.push_back(fmt::format("{}: {}", model.expression.name(), reason));
 
-    for (const auto& model : models)
-        for (const auto& reason : model.left_out) remarks.push_back(fmt::format("{}: {}", model.expression, reason));
-    const std::string source_words = arguments.action_units.empty()  ? "model files"
-                                     : arguments.model_files.empty() ? arguments.source
-                                                                     : arguments.source + " and model files";
     if (arguments.common.json) {
-        auto list = nlohmann::json::array();
-        for (std::size_t k = 0; k < models.size(); ++k)
-            list.push_back({{"expression", names[k].name},
-                            {"magnitude", names[k].magnitude},
-                            {"sources", models[k].sources},
-                            {"points", models[k].points.size()},
-                            {"largest_displacement_mm", models[k].largest_displacement_mm()}});
-        nlohmann::json document = {{"schema", 1},
-                                   {"target", neutral.id.name()},
-                                   {"source", source_words},
-                                   {"method", arguments.method.name},
-                                   {"frame", arguments.frame},
-                                   {"units", "mm"},
-                                   {"expressions", list},
-                                   {"largest_displacement_mm", extent.largest_displacement_mm},
-                                   {"largest_neighbour_step_mm", extent.largest_neighbour_step_mm},
-                                   {"remarks", remarks},
-                                   {"failures", failures},
-                                   {"output", arguments.output}};
-        if (const auto values = animation::vertex_values_file(arguments.output); !values.empty())
-            document["vertex_values"] = values.string();
-        std::cout << io::json_text(document);
+        print_json(arguments, neutral, chosen, extent);
     } else {
         if (!arguments.common.quiet)
             for (const auto& remark : remarks) std::cerr << "note: " << remark << '\n';
         std::vector<std::string> asked = arguments.action_units;
         asked.insert(asked.end(), arguments.model_files.begin(), arguments.model_files.end());
         std::cout << fmt::format("{}: {} from {} on {}, up to {:.1f} mm\n", arguments.output, fmt::join(asked, " + "),
-                                 source_words, neutral.id.name(), extent.largest_displacement_mm);
+                                 source_words(arguments), neutral.id.name(), extent.largest_displacement_mm);
     }
-    for (const auto& failure : failures) std::cerr << failure << '\n';
-    return failures.empty() ? exit_done : exit_done_with_failures;
+    for (const auto& failure : chosen.failures) std::cerr << failure << '\n';
+    return chosen.failures.empty() ? exit_done : exit_done_with_failures;
 }
 
 }  // namespace

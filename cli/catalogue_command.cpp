@@ -55,7 +55,7 @@ nlohmann::json unit_to_json(const facs::ActionUnit& unit) {
 /// Every reference once, with the AUs whose muscles it stands for.
 void list_references(const facs::FacsCatalogue& catalogue) {
     std::vector<std::pair<std::string_view, std::vector<int>>> references;
-    for (const auto& unit : catalogue.units())
+    for (const auto& unit : catalogue.action_units())
         for (const auto& muscle : unit.muscles) {
             auto known = std::find_if(references.begin(), references.end(),
                                       [&](const auto& entry) { return entry.first == muscle.reference; });
@@ -68,10 +68,10 @@ void list_references(const facs::FacsCatalogue& catalogue) {
 }
 
 void list_units(const facs::FacsCatalogue& catalogue, const std::string& name) {
-    std::cout << fmt::format("{}: {} action units; points of one side\n\n", name, catalogue.units().size());
+    std::cout << fmt::format("{}: {} action units; points of one side\n\n", name, catalogue.action_units().size());
     std::cout << fmt::format("{:>3}  {:<22} {:<6} {:<8} {:>6} {:>8}  {}\n", "AU", "name", "region", "sides", "muscle",
                              "wrinkle", "muscles");
-    for (const auto& unit : catalogue.units()) {
+    for (const auto& unit : catalogue.action_units()) {
         std::vector<std::string_view> muscles;
         for (const auto& muscle : unit.muscles) muscles.push_back(muscle.name);
         const auto counts = count_points(unit);
@@ -120,7 +120,7 @@ int run(const Request& request) {
         return exit_done;
     }
     auto units = nlohmann::json::array();
-    for (const auto& unit : catalogue.units()) units.push_back(unit_to_json(unit));
+    for (const auto& unit : catalogue.action_units()) units.push_back(unit_to_json(unit));
     auto emotions = nlohmann::json::array();
     for (const auto& emotion : catalogue.emotions())
         emotions.push_back({{"name", emotion.name}, {"units", emotion.action_units}});

@@ -1,8 +1,10 @@
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
@@ -18,10 +20,27 @@ namespace {
 struct Arguments {
     Common common;
     std::string workspace, output, catalogue_file;
-    std::vector<std::string> methods = {"thesis", "default", "mean"};
+    std::vector<std::string> methods = {"thesis", "default", "mean"}, expressions;
     evaluation::ExperimentOptions options;
     bool no_reference = false, no_whole_face = false, dry_run = false;
 };
+
+int say_plan(const Arguments& arguments, const evaluation::ExperimentPlan& plan) {
+    const auto estimate = evaluation::estimate(plan);
+    const double seconds = estimate.core_seconds / working_threads();
+    constexpr double bytes_per_transfer = 600;  // five lines of cases.csv
+    const double megabytes = 1.0 + static_cast<double>(estimate.transfers) * bytes_per_transfer / 1e6;
+    if (arguments.common.json)
+        std::cout << io::json_text(nlohmann::json{{"schema", 1},
+                                                  {"dry_run", true},
+                                                  {"transfers", estimate.transfers},
+                                                  {"seconds", seconds},
+                                                  {"megabytes", megabytes}});
+    else
+        std::cout << fmt::format("{} transfers, about {:.0f} s and {:.0f} MB of tables\n", estimate.transfers, seconds,
+                                 megabytes);
+    return exit_done;
+}
 
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
@@ -30,43 +49,39 @@ int run(Arguments& arguments) {
     auto& options = arguments.options;
     refuse_doubles("--method", arguments.methods);
     options.methods.clear();
-    for (const auto& name : arguments.methods) options.methods.push_back(evaluation::method_by_name(name));
-    for (auto& expression : options.expressions) expression = catalogue.code(expression);
+    for (const auto& name : arguments.methods) options.methods.push_back(animation::method_by_name(name));
+    options.expressions = expressions_named(catalogue, "--expression", arguments.expressions);
     options.reference = !arguments.no_reference;
     options.whole_face = !arguments.no_whole_face;
-    evaluation::check_experiment(workspace, catalogue, options);
+    const evaluation::PerformanceReader reader(workspace);
+    const auto plan = evaluation::plan_experiment(workspace, catalogue, options, reader.has_truth());
     const std::filesystem::path folder = arguments.output;
     if (!folder.empty()) check_output_folder(folder, arguments.dry_run);
-    if (arguments.dry_run) {
-        const auto estimate = evaluation::estimate_experiment(workspace, options);
-        const double seconds = estimate.core_seconds / working_threads();
-        if (arguments.common.json)
-            std::cout << io::json_text(nlohmann::json{{"schema", 1},
-                                                      {"dry_run", true},
-                                                      {"transfers", estimate.transfers},
-                                                      {"seconds", seconds},
-                                                      {"megabytes", 1.0}});
-        else
-            std::cout << fmt::format("{} transfers, about {:.0f} s and less than 1 MB of tables\n", estimate.transfers,
-                                     seconds);
-        return exit_done;
-    }
-    const std::size_t steps = evaluation::experiment_steps(workspace, options);
+    if (arguments.dry_run) return say_plan(arguments, plan);
     evaluation::ExperimentReport report;
     {
-        Progress progress(arguments.common, "evaluate", steps);
-        report = evaluation::run_experiment(workspace, catalogue, options,
+        Progress progress(arguments.common, "evaluate", plan.units());
+        report = evaluation::run_experiment(reader, catalogue, plan,
+                                            folder.empty() ? std::filesystem::path() : folder / "cases.csv",
                                             [&](const std::string& what) { progress.advance(what); });
     }
     const auto markdown = report::to_markdown(report), json = report::to_json(report);
     std::cout << (arguments.common.json ? json : markdown) << std::flush;
-    if (!arguments.output.empty()) {
+    if (!folder.empty()) {
         base::write_atomically(folder / "scores.md", markdown);
         base::write_atomically(folder / "scores.csv", report::to_csv(report));
         base::write_atomically(folder / "scores.json", json);
     }
     if (!arguments.common.json && !arguments.common.quiet) std::cerr << fmt::format("{:.1f} s\n", report.seconds);
     return report.failures.empty() ? exit_done : exit_done_with_failures;
+}
+
+/// "thesis, default, mean, ...": the methods that a user may ask for.
+std::string method_names() {
+    std::vector<std::string> names;
+    for (const auto& method : animation::known_methods())
+        if (method->needs() != animation::SourceKind::none) names.push_back(method->name());
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -77,10 +92,12 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     auto arguments = std::make_shared<Arguments>();
     auto& options = arguments->options;
     command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
-    command->add_option("--method", arguments->methods, "thesis, default (one source), mean (of all other subjects)")
+    command->add_option("--method", arguments->methods, "Methods to score: " + method_names())
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("--expression,--au", options.expressions, "AUs and emotions to score")
+    for (const auto& expression : evaluation::ExperimentOptions::thesis_expressions())
+        arguments->expressions.push_back(expression.code());
+    command->add_option("--expression,--au", arguments->expressions, "AUs and emotions to score")
         ->delimiter(',')
         ->capture_default_str();
     command->add_option("--max-sources", options.max_sources, "Sources per target; 0 = all other subjects")
@@ -90,7 +107,7 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     command->add_flag("--no-reference", arguments->no_reference,
                       "Leave out the true-field reference of synthetic databases");
     command->add_flag("--no-whole-face", arguments->no_whole_face, "Score the active zone only (faster)");
-    add_output_folder(*command, arguments->output, "Folder for scores.md, scores.csv and scores.json");
+    add_output_folder(*command, arguments->output, "Folder for scores.md, scores.csv, scores.json and cases.csv");
     command->add_flag("--dry-run", arguments->dry_run, "Say time and disk, do nothing");
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

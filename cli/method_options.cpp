@@ -2,12 +2,25 @@
 
 #include <filesystem>
 
+#include "cli/command.h"
 #include "modeling/average_fingerprint.h"
 
 namespace mimik::cli {
 
 geometry::SplineKernel kernel_by_name(const std::string& name) {
     return name == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
+}
+
+std::vector<facs::Expression> expressions_named(const facs::FacsCatalogue& catalogue, const std::string& option,
+                                                const std::vector<std::string>& typed) {
+    std::vector<facs::Expression> expressions;
+    std::vector<std::string> codes;
+    for (const auto& text : typed) {
+        expressions.push_back(catalogue.expression(text));
+        codes.push_back(expressions.back().code());
+    }
+    refuse_doubles(option, codes);
+    return expressions;
 }
 
 void MethodArguments::add_to(CLI::App& command) {

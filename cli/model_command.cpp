@@ -29,8 +29,7 @@ int run(Arguments& arguments) {
                                              ? workspace.root() / "models" / arguments.method.variant_name()
                                              : std::filesystem::path(arguments.output);
     // A word mistyped is found out before any work.
-    for (auto& expression : arguments.expressions) expression = catalogue.code(expression);
-    refuse_doubles("--expression", arguments.expressions);
+    const auto expressions = expressions_named(catalogue, "--expression", arguments.expressions);
     for (auto& source : arguments.sources) {
         source = subject_named(workspace, source);
         modeling::check_source(workspace, {source, {}}, arguments.method.model_options());
@@ -42,27 +41,27 @@ int run(Arguments& arguments) {
     const auto provenance = arguments.method.provenance(catalogue, workspace.average());
     auto written = nlohmann::json::array();
     std::vector<std::string> failures;
-    Progress progress(arguments.common, "model", arguments.sources.size() * arguments.expressions.size());
+    Progress progress(arguments.common, "model", arguments.sources.size() * expressions.size());
     for (const auto& source : arguments.sources) {
-        for (const auto& expression : arguments.expressions) {
+        for (const auto& expression : expressions) {
             try {
                 auto model = modeling::model_from_workspace(workspace, catalogue, expression, {source, {}},
                                                             arguments.method.model_options());
                 model.provenance = provenance;
-                const auto file = folder / source / (model.expression + ".json");
+                const auto file = folder / source / (model.expression.name() + ".json");
                 modeling::write_expression_model(file, model);
                 for (const auto& scan : model.unusable_scans)
-                    failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression, scan));
+                    failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression.name(), scan));
                 written.push_back({{"file", file.string()},
-                                   {"expression", model.expression},
+                                   {"expression", model.expression.name()},
                                    {"source", source},
                                    {"points", model.points.size()},
                                    {"left_out", model.left_out},
                                    {"largest_displacement_mm", model.largest_displacement_mm()}});
             } catch (const std::exception& e) {
-                failures.push_back(fmt::format("{} of {}: {}", expression, source, e.what()));
+                failures.push_back(fmt::format("{} of {}: {}", expression.code(), source, e.what()));
             }
-            progress.advance(fmt::format("{} {}", source, expression));
+            progress.advance(fmt::format("{} {}", source, expression.code()));
         }
     }
     if (arguments.common.json)

@@ -49,48 +49,51 @@ double panels_of(const Arguments& arguments, const Planned& planned) {
 
 /// A picture per AU; a series is one picture of all AUs.
 std::vector<Planned> plan(const Arguments& arguments, const preprocessing::Workspace& workspace,
-                          const facs::FacsCatalogue& catalogue, std::vector<std::string>& codes) {
+                          const facs::FacsCatalogue& catalogue, std::vector<facs::Expression>& expressions) {
     std::vector<Planned> planned;
     for (const auto& text : arguments.action_units) {
-        auto selection = facs::split_magnitude(text);
-        selection.code = catalogue.code(selection.code);
-        if (!arguments.series.empty() && selection.magnitude != 1.0)
+        const auto typed = facs::split_magnitude(text);
+        if (!arguments.series.empty() && typed.magnitude != 1.0)
             throw InputError(
                 fmt::format("--au {}: the magnitudes of a series stand in --series; give the AU alone", text));
         auto request = arguments.request;
-        request.expression = selection.code;
-        request.method = {arguments.method.name, evaluation::RowKind::one_source, arguments.method.model_options(),
-                          arguments.method.animation_options(), selection.magnitude};
+        request.expression = catalogue.expression(typed.text);
+        request.method_name = arguments.method.name;
+        request.model = arguments.method.model_options();
+        request.animation = arguments.method.animation_options();
+        request.magnitude = typed.magnitude;
         (void)report::compared_scans(workspace, catalogue, request);  // found out before any work
-        codes.push_back(selection.code);
-        const auto name = report::comparison_name(catalogue, request);
+        expressions.push_back(request.expression);
+        const auto name = report::comparison_name(request);
         for (const auto& other : planned)
             if (other.name == name)
                 throw InputError(fmt::format("--au {}: picture {} is asked for twice; give each AU once", text, name));
         planned.push_back({request, name});
     }
     if (arguments.series.empty()) return planned;
-    report::check_series(workspace, catalogue, planned.front().request, codes, arguments.series);
-    return {{planned.front().request, report::series_name(catalogue, planned.front().request, codes)}};
+    report::check_series(workspace, catalogue, planned.front().request, expressions, arguments.series);
+    return {{planned.front().request, report::series_name(planned.front().request, expressions)}};
 }
 
-nlohmann::json to_json(const Planned& planned, const std::vector<std::string>& codes,
+nlohmann::json to_json(const Planned& planned, const std::vector<facs::Expression>& expressions,
                        const std::filesystem::path& picture, const ComparisonFigure& figure) {
     auto people = nlohmann::json::array();
+    std::vector<std::string> codes;
+    for (const auto& expression : expressions) codes.push_back(expression.code());
     for (const auto& person : figure.people)
         people.push_back({{"subject", person.subject},
-                          {"zone_mm", person.distances.zone_mm},
-                          {"zone_nothing_mm", person.distances.zone_nothing_mm},
-                          {"explained", person.explained()},
-                          {"face_mm", person.distances.whole_mm},
-                          {"face_nothing_mm", person.distances.whole_nothing_mm}});
+                          {"zone_mm", person.zone_mm},
+                          {"zone_nothing_mm", person.zone_nothing_mm},
+                          {"explained", person.explained() ? nlohmann::json(*person.explained()) : nlohmann::json()},
+                          {"face_mm", person.face_mm},
+                          {"face_nothing_mm", person.face_nothing_mm}});
     return {{"picture", picture.string()},
             {"description", figure.description.string()},
             {"panels", figure.panels},
             {"expressions", codes},
             {"source", planned.request.source},
             {"target", planned.request.target},
-            {"method", planned.request.method.name},
+            {"method", planned.request.method_name},
             {"distances", people},
             {"colour_scale_mm", figure.scale_mm},
             {"remarks", figure.remarks}};
@@ -127,7 +130,7 @@ void tell(const Arguments& arguments, const std::filesystem::path& picture, cons
     std::cout << fmt::format("{}: {} panels", picture.string(), figure.panels);
     for (const auto& person : figure.people)
         std::cout << fmt::format("; {} {:.2f} mm from the real scan, doing nothing {:.2f} mm", person.subject,
-                                 person.distances.zone_mm, person.distances.zone_nothing_mm);
+                                 person.zone_mm, person.zone_nothing_mm);
     std::cout << '\n';
 }
 
@@ -137,8 +140,8 @@ int run(Arguments& arguments) {
     if (arguments.keep_bridged) arguments.request.bridged = geometry::BridgedVertices::keep;
     for (auto* subject : {&arguments.request.source, &arguments.request.target})
         *subject = subject_named(workspace, *subject);
-    std::vector<std::string> codes;
-    const auto planned = plan(arguments, workspace, catalogue, codes);
+    std::vector<facs::Expression> expressions;
+    const auto planned = plan(arguments, workspace, catalogue, expressions);
     const std::filesystem::path folder = arguments.output;
     check_output_folder(folder, arguments.dry_run);
     if (arguments.dry_run) return say_plan(arguments, planned);
@@ -152,15 +155,15 @@ int run(Arguments& arguments) {
         try {
             const auto figure = arguments.series.empty()
                                     ? write_comparison_panels(workspace, catalogue, one.request, folder / one.name)
-                                    : write_magnitude_series(workspace, catalogue, one.request, codes, arguments.series,
-                                                             folder / one.name);
+                                    : write_magnitude_series(workspace, catalogue, one.request, expressions,
+                                                             arguments.series, folder / one.name);
             if (const auto fault = draw_figure(figure.description, picture); !fault.empty())
                 failures.push_back(
                     fmt::format("{}; its faces are in {}: draw them with 'mimik figure --description {} -o "
                                 "FILE.png'",
                                 fault, (folder / one.name).string(), figure.description.string()));
-            figures.push_back(
-                to_json(one, arguments.series.empty() ? std::vector{one.request.expression} : codes, picture, figure));
+            figures.push_back(to_json(one, arguments.series.empty() ? std::vector{one.request.expression} : expressions,
+                                      picture, figure));
             if (!arguments.common.json) tell(arguments, picture, figure);
             failures.insert(failures.end(), figure.failures.begin(), figure.failures.end());
         } catch (const std::exception& e) {

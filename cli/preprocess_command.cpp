@@ -14,7 +14,7 @@
 #include "database/scan_database.h"
 #include "facs/facs_catalogue.h"
 #include "io/json_values.h"
-#include "modeling/control_points.h"
+#include "preprocessing/preprocess_run.h"
 #include "preprocessing/workspace.h"
 #include "report/quality_sheet.h"
 
@@ -70,9 +70,9 @@ nlohmann::json listed(const std::vector<preprocessing::ScanRemark>& remarks) {
     return list;
 }
 
-int say_plan(const Arguments& arguments, const database::ScanDatabase& database,
+int say_plan(const Arguments& arguments, const database::ScanDatabase& database, const facs::FacsCatalogue& catalogue,
              const std::vector<const database::ScanEntry*>& scans) {
-    const auto plan = preprocessing::plan_preprocessing(database, arguments.output, arguments.options);
+    const auto plan = preprocessing::plan_preprocessing(database, arguments.output, catalogue, arguments.options);
     // Another face of a subject means another sheet with all of them.
     const auto on_new_sheet = [&](const database::ScanEntry* entry) {
         const auto& subject = entry->id.subject;
@@ -84,7 +84,8 @@ int say_plan(const Arguments& arguments, const database::ScanDatabase& database,
     const auto faces = static_cast<double>(plan.remaining);
     const auto on_sheets =
         arguments.sheets ? static_cast<double>(std::count_if(scans.begin(), scans.end(), on_new_sheet)) : 0.0;
-    const double vertices = static_cast<double>(arguments.options.gridding.rows) * arguments.options.gridding.cols;
+    const double vertices =
+        static_cast<double>(arguments.options.steps.gridding.rows) * arguments.options.steps.gridding.cols;
     const double megabytes = (faces * vertices * bytes_per_vertex + on_sheets * sheet_bytes_per_scan) / 1e6;
     const double seconds = (faces * seconds_per_scan + on_sheets * sheet_seconds_per_scan) / working_threads();
     if (arguments.common.json)
@@ -113,23 +114,12 @@ int run(Arguments& arguments) {
     const auto scans = preprocessing::selected_scans(database, arguments.options);
     const auto catalogue =
         arguments.catalogue_file.empty() ? facs::builtin_catalogue() : facs::read_catalogue(arguments.catalogue_file);
-    arguments.options.stable_region_name = catalogue.content_hash();
     check_output_folder(arguments.output, arguments.dry_run);
-    if (arguments.dry_run) return say_plan(arguments, database, scans);
-    // Which part of a face an expression leaves alone is the catalogue's knowledge; codes it lacks get the general
-    // answer.
-    const auto stable_region = [&](const database::ScanId& scan, const preprocessing::Face& neutral) {
-        if (scan.neutral()) return preprocessing::stable_on_every_face(neutral);
-        try {
-            return modeling::stable_vertices(catalogue, scan.code, neutral);
-        } catch (const InputError&) {
-            return preprocessing::stable_on_every_face(neutral);
-        }
-    };
+    if (arguments.dry_run) return say_plan(arguments, database, catalogue, scans);
     preprocessing::PreprocessReport report;
     {
         Progress progress(arguments.common, "preprocess", scans.size());
-        report = preprocessing::preprocess_database(database, arguments.output, arguments.options, stable_region,
+        report = preprocessing::preprocess_database(database, arguments.output, catalogue, arguments.options,
                                                     [&](const std::string& scan) { progress.advance(scan); });
     }
     report::QualitySheetReport sheets;
@@ -182,18 +172,19 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
     command
         ->add_option("--expression,--au", options.codes, "Only these expressions beside the neutrals (1,12,12L,HAPPY)")
         ->delimiter(',');
-    command->add_option("--rows", options.gridding.rows, "Rows of the grid")->capture_default_str();
-    command->add_option("--cols", options.gridding.cols, "Columns of the grid")->capture_default_str();
+    command->add_option("--rows", options.steps.gridding.rows, "Rows of the grid")->capture_default_str();
+    command->add_option("--cols", options.steps.gridding.cols, "Columns of the grid")->capture_default_str();
     command->add_option(
-        "--max-edge-mm", options.gridding.max_edge_mm,
+        "--max-edge-mm", options.steps.gridding.max_edge_mm,
         "Longer triangle edges bridge a hole (default: 3 spacings; of a mesh all that no face covers is bridged)");
-    command->add_option("--spike-mm", options.cleaning.spike_mm, "Farther than this from its neighbours is a spike")
+    command
+        ->add_option("--spike-mm", options.steps.cleaning.spike_mm, "Farther than this from its neighbours is a spike")
         ->capture_default_str();
     command
-        ->add_option("--max-jump-mm", options.cleaning.max_jump_mm,
+        ->add_option("--max-jump-mm", options.steps.cleaning.max_jump_mm,
                      "Neighbours farther apart belong to different parts")
         ->capture_default_str();
-    command->add_option("--min-part", options.cleaning.min_part, "Smaller parts are stray, share of the largest")
+    command->add_option("--min-part", options.steps.cleaning.min_part, "Smaller parts are stray, share of the largest")
         ->capture_default_str();
     command->add_option("--trim", options.alignment.trim, "Share of the points that the alignment uses")
         ->capture_default_str();

@@ -186,15 +186,15 @@ void print_scans(const ScanDatabase& database, const std::vector<const ScanEntry
         std::vector<std::string> facs;
         for (const auto& score : entry.facs_scores)
             facs.push_back(fmt::format("{}{}{}",
-                                       score.side == Side::left    ? "L"
-                                       : score.side == Side::right ? "R"
+                                       score.side == facs::Side::left    ? "L"
+                                       : score.side == facs::Side::right ? "R"
                                                                    : "",
                                        score.action_unit, score.intensity ? std::string(1, score.intensity) : ""));
         const auto unit = entry.id.action_unit();
         rows.push_back({entry.id.name() + (database.hidden(entry.id.subject) ? " (hidden)" : ""),
                         std::to_string(summary.points), std::to_string(summary.landmarks.size()),
                         unit ? std::to_string(*unit) : "",
-                        entry.id.side() == Side::both ? "" : to_string(entry.id.side()),
+                        entry.id.side() == facs::Side::both ? "" : to_string(entry.id.side()),
                         fmt::format("{}", fmt::join(facs, "+")), defects.text(summary.checked)});
     }
     print_table(rows);
@@ -228,7 +228,7 @@ int action_unit_number(const std::string& text) {
 
 int run(Request& request) {
     for (const auto& text : request.action_units) request.selection.action_units.push_back(action_unit_number(text));
-    if (!request.side.empty()) request.selection.side = parse_side(request.side);
+    if (!request.side.empty()) request.selection.side = facs::parse_side(request.side);
     request.index.use_cache = !request.no_catalogue;
     check_by_option(
         {{"max_hole_mm", "--max-hole-mm"}, {"spike_mm", "--spike-mm"}, {"landmark_off_scan_mm", "--landmark-off-mm"}},
@@ -274,7 +274,7 @@ void add_scans_command(CLI::App& app, int& exit_code) {
     const auto request = std::make_shared<Request>();
     add_common_options(*command, request->common);
     command->add_option("DB", request->root, "Folder with bs000, bs001, ... or with manifest.csv")->required();
-    command->add_flag("--check", request->catalogue.check, "Examine every scan and say how to mend what is wrong");
+    command->add_flag("--check", request->index.check, "Examine every scan and say how to mend what is wrong");
     command->add_option("--subject", request->selection.subjects, "Only these subjects, such as bs003,bs007")
         ->delimiter(',');
     command->add_option("--group", request->selection.groups, "Only these groups, such as N,LFAU")->delimiter(',');
@@ -282,7 +282,7 @@ void add_scans_command(CLI::App& app, int& exit_code) {
     command->add_option("--side", request->side, "Only left, right (the subject's own) or both-sided scans");
     command->add_flag("--list", request->list, "One line per scan, and every note (as when scans are selected)");
     command->add_flag("--no-catalogue", request->no_catalogue, "Read every scan; leave the user's cache alone");
-    auto& doctor = request->catalogue.doctor;
+    auto& doctor = request->index.doctor;
     command->add_option("--max-hole-mm", doctor.max_hole_mm, "A hole that takes more of the skin gets a warning")
         ->capture_default_str();
     command->add_option("--spike-mm", doctor.spike_mm, "Points further off their neighbourhood are spikes")

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "facs/expression_zone.h"
 #include "geometry/landmark_spline.h"
 #include "geometry/surface_index.h"
-#include "modeling/control_points.h"
 #include "preprocessing/nearest_on_average.h"
 
 namespace mimik::evaluation {
@@ -59,8 +59,8 @@ void TrueZone::add(std::span<const Vector> motion_mm) {
     ++subjects_;
 }
 
-ActiveZone TrueZone::zone(const std::string& expression, double share) const {
-    if (subjects_ == 0) throw InputError(fmt::format("{}: no subject with a truth shows it", expression));
+ActiveZone TrueZone::zone(const facs::Expression& expression, double share) const {
+    if (subjects_ == 0) throw InputError(fmt::format("{}: no subject with a truth shows it", expression.code()));
     ActiveZone zone;
     zone.expression = expression;
     double largest = 0;
@@ -73,7 +73,7 @@ ActiveZone TrueZone::zone(const std::string& expression, double share) const {
     return zone;
 }
 
-ActiveZone active_zone_from_catalogue(const std::string& expression, const AverageFace& average,
+ActiveZone active_zone_from_catalogue(const facs::Expression& expression, const AverageFace& average,
                                       const facs::FacsCatalogue& catalogue) {
     const facs::ExpressionZone drawn(catalogue, expression, average.landmarks);
     ActiveZone zone;
@@ -88,9 +88,9 @@ void unite(ActiveZone& zone, const ActiveZone& other) {
         if (other.active[v]) zone.active[v] = 1;
 }
 
-std::vector<char> carry_zone(const ActiveZone& zone, const AverageFace& average, const Face& face) {
+geometry::VertexMask carry_zone(const ActiveZone& zone, const AverageFace& average, const Face& face) {
     const auto nearest = preprocessing::nearest_on_average(face, average);
-    std::vector<char> active(face.grid.size(), 0);
+    geometry::VertexMask active(face.grid.size(), 0);
     for (std::size_t v = 0; v < active.size(); ++v)
         if (nearest[v].distance_mm < rim_mm) active[v] = zone.active[nearest[v].vertex];
     return active;

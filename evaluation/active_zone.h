@@ -7,6 +7,7 @@
 #include "database/truth.h"
 #include "facs/facs_catalogue.h"
 #include "geometry/types.h"
+#include "geometry/vertex_mask.h"
 #include "preprocessing/average_face.h"
 #include "preprocessing/face.h"
 
@@ -14,8 +15,8 @@ namespace mimik::evaluation {
 
 /// Where an expression moves the skin, on the average face: the part of a face on which methods are compared.
 struct ActiveZone {
-    std::string expression;
-    std::vector<char> active;             ///< per vertex of the average face's grid
+    facs::Expression expression;
+    geometry::VertexMask active;          ///< per vertex of the average face's grid
     std::vector<double> displacement_mm;  ///< mean over subjects, where it is known from a truth; else empty
 };
 
@@ -34,7 +35,7 @@ public:
     explicit TrueZone(const preprocessing::AverageFace& average);
     void add(std::span<const geometry::Vector> motion_mm);  ///< of true_motion_on_average()
     /// @throws InputError if no subject was added.
-    [[nodiscard]] ActiveZone zone(const std::string& expression, double share = 0.2) const;
+    [[nodiscard]] ActiveZone zone(const facs::Expression& expression, double share = 0.2) const;
 
 private:
     const preprocessing::AverageFace& average_;
@@ -43,7 +44,7 @@ private:
 };
 
 /// The same region as the catalogue draws it, for databases without a truth.
-[[nodiscard]] ActiveZone active_zone_from_catalogue(const std::string& expression,
+[[nodiscard]] ActiveZone active_zone_from_catalogue(const facs::Expression& expression,
                                                     const preprocessing::AverageFace& average,
                                                     const facs::FacsCatalogue& catalogue);
 
@@ -53,8 +54,8 @@ void unite(ActiveZone& zone, const ActiveZone& other);
 /// The zone on a face's own grid: every vertex goes to the average face by the landmark spline and takes what the
 /// nearest average vertex has. Vertices outside the face, or farther than 5 mm off the average face's rim, are not
 /// active.
-[[nodiscard]] std::vector<char> carry_zone(const ActiveZone& zone, const preprocessing::AverageFace& average,
-                                           const preprocessing::Face& face);
+[[nodiscard]] geometry::VertexMask carry_zone(const ActiveZone& zone, const preprocessing::AverageFace& average,
+                                              const preprocessing::Face& face);
 
 /// Landmark spline (kernel r) from the average face to a face, both in their own frames.
 [[nodiscard]] std::vector<geometry::Point> average_vertices_on(const preprocessing::AverageFace& average,

@@ -1,210 +1,155 @@
 #include "evaluation/experiment.h"
 
-#include <algorithm>
 #include <chrono>
+#include <memory>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/errors.h"
 #include "base/parallel.h"
-#include "evaluation/expression_cast.h"
-#include "evaluation/performance.h"
-#include "evaluation/target_cases.h"
+#include "evaluation/case_store.h"
+#include "evaluation/cast.h"
+#include "evaluation/target_unit.h"
 
 namespace mimik::evaluation {
 
 using database::ScanId;
-using preprocessing::Workspace;
 
 namespace {
 
-std::vector<std::string> shown_subjects(const Workspace& workspace) {
-    std::vector<std::string> subjects;
-    for (const auto& subject : workspace.subjects())
-        if (!workspace.hidden(subject)) subjects.push_back(subject);
-    return subjects;
-}
-
-/// The scans of one expression, one per subject that shows it.
-std::vector<ScanId> scans_of(const Workspace& workspace, const std::vector<std::string>& subjects,
-                             const std::string& expression) {
-    std::vector<ScanId> scans;
-    for (const auto& subject : subjects)
-        if (auto id = workspace.expression(subject, expression)) scans.push_back(std::move(*id));
-    return scans;
-}
-
-}  // namespace
-
-void ExperimentOptions::check() const {
-    if (methods.empty()) throw InputError("an experiment without a method; give one or more of thesis, default, mean");
-    if (expressions.empty())
-        throw InputError("an experiment without an expression; give one or more, such as 12 or HAPPY");
-    for (std::size_t k = 0; k < expressions.size(); ++k)
-        if (std::find(expressions.begin(), expressions.begin() + static_cast<std::ptrdiff_t>(k), expressions[k]) !=
-            expressions.begin() + static_cast<std::ptrdiff_t>(k))
-            throw InputError(
-                fmt::format("expression '{}' is asked for twice; its cases would count twice", expressions[k]));
-    if (max_sources < 0) throw InputError(fmt::format("max_sources is {}; give 0 (all) or more", max_sources));
-    for (const auto& method : methods) {
-        method.model.check();
-        method.animation.check();
-    }
-}
-
-void check_experiment(const Workspace& workspace, const facs::FacsCatalogue& catalogue,
-                      const ExperimentOptions& options) {
-    options.check();
-    const auto subjects = shown_subjects(workspace);
-    for (const auto& expression : options.expressions) {
-        (void)catalogue.resolve(expression);
-        const auto shown = scans_of(workspace, subjects, expression).size();
-        if (shown < 3)
-            throw InputError(fmt::format("{}: expression '{}': {} subjects show it; an experiment needs three or more",
-                                         workspace.root().string(), expression, shown));
-    }
-    (void)PerformanceReader(workspace);
-}
-
-ExperimentEstimate estimate_experiment(const Workspace& workspace, const ExperimentOptions& options) {
-    // Processor time on an AMD EPYC at 2.6 GHz: 14 subjects of ICT-FaceKit, 150 x 150 vertices, AU 1, 12 and 17.
-    constexpr double subject_s = 0.06;    // read three times, measured, made ready as a target
-    constexpr double transfer_s = 0.009;  // 7 ms by the default, 11 by thesis, 9 of a true field, whole face included
-    const bool truth = PerformanceReader(workspace).has_truth();
-    ExperimentEstimate estimate;
-    for (const auto& expression : options.expressions) {
-        const std::size_t subjects = scans_of(workspace, shown_subjects(workspace), expression).size();
-        if (subjects == 0) continue;
-        const auto limit = static_cast<std::size_t>(options.max_sources);
-        const std::size_t sources = limit > 0 ? std::min(limit, subjects - 1) : subjects - 1;
-        std::size_t per_target = options.reference && truth ? sources + 1 : 0;
-        for (const auto& method : options.methods) per_target += method.kind == RowKind::mean ? 1 : sources;
-        estimate.transfers += subjects * per_target;
-        estimate.core_seconds += static_cast<double>(subjects) * subject_s;
-    }
-    estimate.core_seconds += static_cast<double>(estimate.transfers) * transfer_s;
-    return estimate;
-}
-
-std::size_t experiment_steps(const Workspace& workspace, const ExperimentOptions& options) {
-    std::size_t steps = 0;
-    for (const auto& code : options.expressions) steps += scans_of(workspace, shown_subjects(workspace), code).size();
-    return steps;
-}
-
-namespace {
-
-/// One run: what its expressions share, and the report that they fill.
+/// One run: what its expressions share.
 class ExperimentRun {
 public:
-    ExperimentRun(const Workspace& workspace, const facs::FacsCatalogue& catalogue, const ExperimentOptions& options,
-                  const std::function<void(const std::string&)>& progress)
-        : workspace_(workspace), catalogue_(catalogue), options_(options), progress_(progress), reader_(workspace) {
-        report_.subjects = shown_subjects(workspace);
-        report_.expressions = options.expressions;
-        report_.whole_face = options.whole_face;
-        report_.zones = reader_.has_truth() ? "truth" : "catalogue";
-        report_.alignment = reader_.has_truth() ? "true pose" : "ICP on the stable region";
-        report_.truth = reader_.truth_origin();
-        for (const auto& method : options.methods) add_row(method.name, method.kind, false);
-        if (!with_reference()) return;
-        add_row("true field, one source", RowKind::one_source, true);
-        add_row("true field, mean", RowKind::mean, true);
-    }
+    ExperimentRun(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue, const ExperimentPlan& plan,
+                  CaseStore& store, const std::function<void(const std::string&)>& progress)
+        : reader_(reader), catalogue_(catalogue), plan_(plan), store_(store), progress_(progress) {}
 
-    ExperimentReport run() {
-        const auto start = std::chrono::steady_clock::now();
+    void run() {
         find_usable();
-        for (const auto& expression : options_.expressions) score(expression);
-        average_over_expressions();
-        report_.failures = failures_.sorted();
-        report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        return std::move(report_);
+        for (const auto& planned : plan_.expressions) score(planned);
     }
+    [[nodiscard]] std::vector<std::string> failures() const { return failures_.sorted(); }
 
 private:
-    [[nodiscard]] bool with_reference() const { return options_.reference && reader_.has_truth(); }
-    void add_row(const std::string& name, RowKind kind, bool reference) {
-        report_.rows.push_back({name, kind, reference, {}, 0, 0, 0, {}});
-    }
-
     /// A neutral that cannot be used is reported once, not once per expression.
     void find_usable() {
-        std::vector<char> usable(report_.subjects.size(), 0);
+        std::vector<char> usable(plan_.subjects.size(), 0);
         base::parallel_for(usable.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t s = begin; s < end; ++s) try {
-                    reader_.check_neutral(report_.subjects[s]);
+                    reader_.check_neutral(plan_.subjects[s]);
                     usable[s] = 1;
                 } catch (const std::exception& e) {
-                    failures_.add(fmt::format("{}: takes part in no case: {}", report_.subjects[s], e.what()));
+                    failures_.add(fmt::format("{}: takes part in no case: {}", plan_.subjects[s], e.what()));
                 }
         });
         for (std::size_t s = 0; s < usable.size(); ++s)
-            if (usable[s]) usable_.push_back(report_.subjects[s]);
+            if (usable[s]) usable_.insert(plan_.subjects[s]);
     }
 
-    void score(const std::string& expression) {
-        const auto cast = gather_cast(reader_, catalogue_, expression, scans_of(workspace_, usable_, expression),
-                                      options_.methods, with_reference(), failures_);
+    void score(const PlannedExpression& planned) {
+        std::vector<ScanId> performances;
+        for (const auto& id : planned.performances)
+            if (usable_.contains(id.subject)) performances.push_back(id);
+        const animation::Subject subject{planned.expression, reader_.workspace().average(), catalogue_};
+        const auto cast = gather_cast(reader_, subject, performances, plan_.methods, failures_);
+        const auto& code = planned.expression.code();
         const std::size_t count = cast.participants.size();
         if (count < 3)
             throw InputError(
-                fmt::format("expression '{}': {} subjects are left; an experiment needs three or more ({})", expression,
+                fmt::format("expression '{}': {} subjects are left; an experiment needs three or more ({})", code,
                             count, fmt::join(failures_.sorted(), "; ")));
-        const CaseChoice choice{options_.methods, with_reference(), options_.whole_face,
-                                static_cast<std::size_t>(options_.max_sources)};
-        std::vector<ScoreSum> sums(report_.rows.size());
-        const auto add = [](ScoreSum& sum, const std::vector<CaseResult>& cases) {
-            for (const auto& result : cases) sum.add(result);
-        };
-        score_in_order(
+        in_order(
             count,
             [&](std::size_t t) {
-                auto cases = score_target(reader_, cast, t, choice, failures_);
-                if (progress_) progress_(fmt::format("{} {}", expression, cast.participants[t].id.subject));
-                return cases;
+                auto rows = score_target(reader_, plan_, cast, t, failures_);
+                if (progress_) progress_(fmt::format("{} {}", code, cast.participants[t].subject));
+                return rows;
             },
-            [&](const TargetCases& cases) {
-                for (std::size_t m = 0; m < cases.methods.size(); ++m) add(sums[m], cases.methods[m]);
-                if (!choice.true_fields) return;
-                add(sums[cases.methods.size()], cases.true_field);
-                add(sums[cases.methods.size() + 1], cases.true_field_mean);
+            [&](std::size_t t, const std::vector<CaseRow>& rows) {
+                store_.append(fmt::format("{} {}", code, cast.participants[t].subject), rows);
             });
-        for (std::size_t r = 0; r < sums.size(); ++r) report_.rows[r].per_expression[expression] = sums[r].score();
     }
 
-    void average_over_expressions() {
-        for (auto& row : report_.rows)
-            for (const auto& [expression, score] : row.per_expression) {
-                const auto count = static_cast<double>(row.per_expression.size());
-                row.explained += score.explained / count;
-                row.explained_median += score.explained_median / count;
-                row.explained_whole += score.explained_whole / count;
-            }
-        for (auto& row : report_.rows)
-            for (const auto& other : report_.rows)
-                if (other.reference && other.kind == row.kind && !row.reference && other.explained > 0)
-                    row.share = row.explained / other.explained;
-    }
-
-    const Workspace& workspace_;
+    const PerformanceReader& reader_;
     const facs::FacsCatalogue& catalogue_;
-    const ExperimentOptions& options_;
+    const ExperimentPlan& plan_;
+    CaseStore& store_;
     const std::function<void(const std::string&)>& progress_;
-    PerformanceReader reader_;
     FailureList failures_;
-    std::vector<std::string> usable_;
-    ExperimentReport report_;
+    std::set<std::string> usable_;
 };
+
+/// Mean of what is known.
+std::optional<double> mean_of(const std::map<std::string, Score>& scores, std::optional<double> Score::*number) {
+    std::size_t count = 0;
+    for (const auto& [expression, score] : scores) count += (score.*number).has_value() ? 1 : 0;
+    if (count == 0) return std::nullopt;
+    double mean = 0;
+    for (const auto& [expression, score] : scores) mean += (score.*number).value_or(0) / static_cast<double>(count);
+    return mean;
+}
+
+MethodScores scores_of_method(const animation::Method& method, const ExperimentPlan& plan, const ScoreTable& table) {
+    MethodScores scores{method.title(), method.needs(), method.needs_truth(), {}, {}, {}, {}, {}};
+    const auto found = table.find(method.name());
+    for (const auto& planned : plan.expressions) {
+        auto& score = scores.per_expression[planned.expression.code()];
+        if (found == table.end()) continue;
+        if (const auto own = found->second.find(planned.expression.code()); own != found->second.end())
+            score = own->second;
+    }
+    scores.explained = mean_of(scores.per_expression, &Score::explained);
+    scores.explained_median = mean_of(scores.per_expression, &Score::explained_median);
+    scores.explained_whole = mean_of(scores.per_expression, &Score::explained_whole);
+    return scores;
+}
+
+void add_shares(std::vector<MethodScores>& rows) {
+    for (auto& row : rows)
+        for (const auto& other : rows)
+            if (other.reference && other.kind == row.kind && !row.reference && row.explained &&
+                other.explained.value_or(0) > 0)
+                row.share = *row.explained / *other.explained;
+}
 
 }  // namespace
 
-ExperimentReport run_experiment(const Workspace& workspace, const facs::FacsCatalogue& catalogue,
-                                const ExperimentOptions& options,
+ExperimentReport run_experiment(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
+                                const ExperimentPlan& plan, const std::filesystem::path& cases,
                                 const std::function<void(const std::string&)>& progress) {
-    check_experiment(workspace, catalogue, options);
-    return ExperimentRun(workspace, catalogue, options, progress).run();
+    const auto start = std::chrono::steady_clock::now();
+    auto store = cases.empty() ? std::make_unique<CaseStore>() : std::make_unique<CaseStore>(cases);
+    ExperimentRun run(reader, catalogue, plan, *store, progress);
+    run.run();
+    const auto table = scores_of([&](const auto& visit) { store->read(visit); });
+    store->finish();
+
+    ExperimentReport report;
+    report.subjects = plan.subjects;
+    for (const auto& planned : plan.expressions) report.expressions.push_back(planned.expression);
+    report.whole_face = plan.whole_face;
+    report.zones = reader.has_truth() ? "truth" : "catalogue";
+    report.alignment = reader.has_truth() ? "true pose" : "ICP on the stable region";
+    report.truth = reader.truth_origin();
+    for (const auto& method : plan.methods) {
+        auto scores = scores_of_method(*method, plan, table);
+        if (method->needs() == animation::SourceKind::none)
+            report.nothing = std::move(scores);
+        else
+            report.rows.push_back(std::move(scores));
+    }
+    add_shares(report.rows);
+    report.failures = run.failures();
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const facs::FacsCatalogue& catalogue,
+                                const ExperimentOptions& options) {
+    const PerformanceReader reader(workspace);
+    return run_experiment(reader, catalogue, plan_experiment(workspace, catalogue, options, reader.has_truth()));
 }
 
 }  // namespace mimik::evaluation

@@ -34,8 +34,8 @@ void PerformanceReader::check_neutral(const std::string& subject) const {
     if (truth_) (void)database::load_true_scan(*truth_, neutral.id);
 }
 
-Performance PerformanceReader::read(const ScanId& expressive) const {
-    Performance own;
+modeling::Performance PerformanceReader::read(const ScanId& expressive) const {
+    modeling::Performance own;
     own.neutral = workspace_.face(workspace_.neutral(expressive.subject));
     own.expressive = workspace_.face(expressive);
     own.neutral_from_expressive = own.expressive.neutral_from_scan;
@@ -45,11 +45,6 @@ Performance PerformanceReader::read(const ScanId& expressive) const {
     own.neutral_from_expressive =
         own.true_neutral->scanner_from_head * own.true_expression->scanner_from_head.inverse(Eigen::Isometry);
     return own;
-}
-
-std::vector<geometry::Vector> PerformanceReader::true_field_mm(const ScanId& expressive) const {
-    const auto neutral = database::load_true_scan(*truth_, workspace_.neutral(expressive.subject));
-    return true_expression(expressive, neutral).displacement_mm;
 }
 
 database::TrueScan PerformanceReader::true_expression(const ScanId& expressive,

@@ -8,18 +8,10 @@
 #include <vector>
 
 #include "database/truth.h"
-#include "preprocessing/face.h"
+#include "modeling/performance.h"
 #include "preprocessing/workspace.h"
 
 namespace mimik::evaluation {
-
-/// One subject at rest and with an expression: the two faces, and what is truly known of them.
-struct Performance {
-    preprocessing::Face neutral, expressive;
-    geometry::Transform neutral_from_expressive;        ///< by the true pose, or else as preprocessing aligned them
-    std::optional<database::TrueScan> true_neutral;     ///< without a truth: none
-    std::optional<database::TrueScan> true_expression;  ///< displacement_mm from the neutral scan
-};
 
 /// Which random numbers and faces a database with a truth was made of, and how far those spread, as truth.json has it.
 struct TruthOrigin {
@@ -41,11 +33,10 @@ public:
     [[nodiscard]] std::optional<TruthOrigin> truth_origin() const;
     /// @throws InputError if the subject cannot take part: face, truth or landmark spline to the average are amiss.
     void check_neutral(const std::string& subject) const;
+    /// True displacements are from the neutral as it was, its micro-expression included, not from a face at rest. The
+    /// two scans are brought together by the true pose where it is known, else as preprocessing aligned them.
     /// @throws InputError naming the file.
-    [[nodiscard]] Performance read(const database::ScanId& expressive) const;
-    /// Displacement of the true surface's vertices from the neutral scan to the expressive one, head frame: from the
-    /// neutral as it was, its micro-expression included, not from a face at rest. @throws InputError naming the file.
-    [[nodiscard]] std::vector<geometry::Vector> true_field_mm(const database::ScanId& expressive) const;
+    [[nodiscard]] modeling::Performance read(const database::ScanId& expressive) const;
 
 private:
     [[nodiscard]] database::TrueScan true_expression(const database::ScanId& expressive,

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t fewest_of_a_mean = 11;
 
-const MethodScores* true_field(const ExperimentReport& report, RowKind kind) {
+const MethodScores* true_field(const ExperimentReport& report, animation::SourceKind kind) {
     const auto row = std::find_if(report.rows.begin(), report.rows.end(), [&](const MethodScores& candidate) {
         return candidate.reference && candidate.kind == kind;
     });
@@ -27,15 +27,18 @@ std::size_t sources_of_mean(const MethodScores& one, const MethodScores& mean) {
 }  // namespace
 
 std::vector<ReferenceBand> reference_bands(const ExperimentReport& report) {
-    const auto as_set = [](const std::vector<std::string>& codes) {
-        return std::set<std::string>(codes.begin(), codes.end());
+    const auto codes = [](const std::vector<facs::Expression>& expressions) {
+        std::set<std::string> all;
+        for (const auto& expression : expressions) all.insert(expression.code());
+        return all;
     };
-    if (as_set(report.expressions) != as_set(ExperimentOptions{}.expressions)) return {};
-    const auto* one = true_field(report, RowKind::one_source);
-    const auto* mean = true_field(report, RowKind::mean);
-    if (!one || !mean) return {};
-    std::vector<ReferenceBand> bands = {{RowKind::one_source, 0.41, 0.53, one->explained}};
-    if (sources_of_mean(*one, *mean) >= fewest_of_a_mean) bands.push_back({RowKind::mean, 0.55, 0.65, mean->explained});
+    if (codes(report.expressions) != codes(ExperimentOptions::thesis_expressions())) return {};
+    const auto* one = true_field(report, animation::SourceKind::one_source);
+    const auto* mean = true_field(report, animation::SourceKind::all_but_target);
+    if (!one || !mean || !one->explained || !mean->explained) return {};
+    std::vector<ReferenceBand> bands = {{animation::SourceKind::one_source, 0.41, 0.53, *one->explained}};
+    if (sources_of_mean(*one, *mean) >= fewest_of_a_mean)
+        bands.push_back({animation::SourceKind::all_but_target, 0.55, 0.65, *mean->explained});
     return bands;
 }
 

@@ -9,7 +9,7 @@ namespace mimik::evaluation {
 /// How hard a database is decides what a method can explain on it: fit to be scored on is one whose true fields explain
 /// as much of the thesis's nine expressions as they did where the methods were measured first.
 struct ReferenceBand {
-    RowKind kind = RowKind::one_source;
+    animation::SourceKind kind = animation::SourceKind::one_source;
     double low = 0.0, high = 0.0;
     double explained = 0.0;  ///< by the true field of this kind
     [[nodiscard]] bool inside() const { return low <= explained && explained <= high; }

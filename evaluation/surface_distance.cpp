@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "geometry/statistics.h"
 
 namespace mimik::evaluation {
 namespace {
@@ -23,26 +24,7 @@ void check_mask(std::size_t mask, std::size_t vertices) {
             fmt::format("the mask has {} entries for {} vertices; give one per vertex or none", mask, vertices));
 }
 
-// Needs finite values; rearranges them.
-double quantile_in_place(std::vector<double>& values, double q) {
-    const double position = q * static_cast<double>(values.size() - 1);
-    const auto lower = static_cast<std::size_t>(position);
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(lower);
-    std::nth_element(values.begin(), at, values.end());
-    const double share = position - static_cast<double>(lower);
-    if (share == 0.0) return *at;
-    return *at + share * (*std::min_element(at + 1, values.end()) - *at);
-}
-
 }  // namespace
-
-double quantile(std::vector<double> values, double q) {
-    if (values.empty()) throw InputError("a quantile of no value; give one or more");
-    if (!(q >= 0.0 && q <= 1.0)) throw InputError(fmt::format("quantile {}; give a number from 0 to 1", q));
-    if (std::any_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
-        throw InputError("a quantile of values that are not all numbers; leave out NaN");
-    return quantile_in_place(values, q);
-}
 
 DistanceSummary summarize(std::span<const double> distance_mm, std::span<const std::uint8_t> on_border,
                           std::span<const std::uint8_t> counts) {
@@ -67,8 +49,8 @@ DistanceSummary summarize(std::span<const double> distance_mm, std::span<const s
     const auto n = static_cast<double>(kept.size());
     summary.mean_mm = sum / n;
     summary.rms_mm = std::sqrt(squares / n);
-    summary.median_mm = quantile_in_place(kept, 0.5);
-    summary.p95_mm = quantile_in_place(kept, 0.95);
+    summary.median_mm = geometry::quantile(kept, 0.5);
+    summary.p95_mm = geometry::quantile(kept, 0.95);
     summary.max_mm = *std::max_element(kept.begin(), kept.end());
     return summary;
 }

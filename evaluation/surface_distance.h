@@ -9,6 +9,7 @@
 #include "geometry/mesh.h"
 #include "geometry/surface_index.h"
 #include "geometry/types.h"
+#include "geometry/vertex_mask.h"
 
 namespace mimik::evaluation {
 
@@ -18,19 +19,15 @@ struct DistanceSummary {
     double mean_mm = 0.0;
     double rms_mm = 0.0;
     double median_mm = 0.0;
-    double p95_mm = 0.0;  ///< 95th percentile, as quantile()
+    double p95_mm = 0.0;  ///< 95th percentile, as geometry::quantile()
     double max_mm = 0.0;
     std::size_t border_hits = 0;  ///< of n: closest point on the reference's border (kept in the figures above)
 };
 
-/// q-quantile, linear between order statistics: position q (n - 1) in the sorted values (numpy's default, method 7 of
-/// Hyndman and Fan 1996). @throws InputError if there is no value, one is NaN, or q is outside [0, 1].
-[[nodiscard]] double quantile(std::vector<double> values, double q);
-
 /// One side: from vertices to the nearest point of a surface.
 struct VertexDistances {
-    std::vector<double> distance_mm;      ///< one per vertex; NaN where the mask leaves it out
-    std::vector<std::uint8_t> on_border;  ///< one per vertex; 1: the nearest point lies on the reference's border
+    std::vector<double> distance_mm;  ///< one per vertex; NaN where the mask leaves it out
+    geometry::VertexMask on_border;   ///< one per vertex; 1: the nearest point lies on the reference's border
     DistanceSummary summary;
 };
 

@@ -15,6 +15,9 @@ enum class ColourMap {
     diverging    ///< blue - near white - red, the same lightness at both ends: signed values about 0
 };
 
+[[nodiscard]] constexpr const char* to_string(ColourMap map) {
+    return map == ColourMap::diverging ? "diverging" : "sequential";
+}
 /// "sequential", "diverging". @throws InputError listing the names.
 [[nodiscard]] ColourMap parse_colour_map(const std::string& name);
 

@@ -73,6 +73,7 @@ enum class Framing {
     own,    ///< each panel its own face: scans in frames of their own
     common  ///< one point of space for all panels: a motion in one frame stays visible as motion
 };
+[[nodiscard]] constexpr const char* to_string(Framing framing) { return framing == Framing::common ? "common" : "own"; }
 [[nodiscard]] Framing parse_framing(const std::string& name);
 
 struct Figure {
@@ -93,6 +94,10 @@ struct Figure {
 
     void check() const;  ///< throws InputError naming field, panel and value
 };
+
+/// One value per vertex: the attribute itself, or the length of a vector. @throws InputError listing the attributes
+/// there are.
+[[nodiscard]] std::vector<double> scalar_values(const geometry::Mesh& mesh, const std::string& attribute);
 
 /// Draws the figure: orthographic cameras, light from above on the image's left, smooth normals. Needs no display. The
 /// same figure gives the same bytes on one machine. The first call of a process opens the renderer (see drawing_route).

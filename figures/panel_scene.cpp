@@ -324,27 +324,6 @@ Eigen::Matrix3d view_axes(const View& view) {
     return axes;
 }
 
-std::vector<double> scalar_values(const Mesh& mesh, const std::string& attribute) {
-    std::string names;
-    for (const auto& candidate : mesh.attributes) {
-        names += (names.empty() ? "" : ", ") + candidate.name;
-        if (candidate.name != attribute) continue;
-        const auto components = static_cast<std::size_t>(std::max(1, candidate.components));
-        if (candidate.values.size() != components * mesh.vertices_mm.size())
-            throw InputError(fmt::format("attribute '{}' has {} values, not {} for each of {} vertices", attribute,
-                                         candidate.values.size(), components, mesh.vertices_mm.size()));
-        if (components == 1) return candidate.values;
-        std::vector<double> lengths(mesh.vertices_mm.size());
-        for (std::size_t v = 0; v < lengths.size(); ++v)
-            lengths[v] = Eigen::Map<const Eigen::VectorXd>(&candidate.values[v * components],
-                                                           static_cast<Eigen::Index>(components))
-                             .norm();
-        return lengths;
-    }
-    throw InputError(
-        fmt::format("the mesh has no attribute '{}'; it has: {}", attribute, names.empty() ? "none" : names));
-}
-
 io::Image draw_panel(const Panel& panel, const PanelCamera& camera, const Figure& figure,
                      const std::array<double, 2>& scalar_range) {
     vtkNew<vtkRenderer> renderer;

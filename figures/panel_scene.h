@@ -21,8 +21,4 @@ struct PanelCamera {
 [[nodiscard]] io::Image draw_panel(const Panel& panel, const PanelCamera& camera, const Figure& figure,
                                    const std::array<double, 2>& scalar_range);
 
-/// One value per vertex: the attribute itself, or the length of a vector. @throws InputError listing the attributes
-/// there are.
-[[nodiscard]] std::vector<double> scalar_values(const geometry::Mesh& mesh, const std::string& attribute);
-
 }  // namespace mimik::figures

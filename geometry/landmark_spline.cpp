@@ -1,5 +1,8 @@
 #include "geometry/landmark_spline.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,7 +10,22 @@
 
 namespace mimik::geometry {
 
-LandmarkPairs::LandmarkPairs(const Landmarks& from, const Landmarks& to) {
+namespace {
+
+double root_mean_square_radius(std::span<const Landmark> marks) {
+    if (marks.empty()) return 0;
+    Point centre = Point::Zero();
+    for (const auto& mark : marks) centre += mark.position_mm;
+    centre /= static_cast<double>(marks.size());
+    double squares = 0;
+    for (const auto& mark : marks) squares += (mark.position_mm - centre).squaredNorm();
+    return std::sqrt(squares / static_cast<double>(marks.size()));
+}
+
+}  // namespace
+
+LandmarkPairs::LandmarkPairs(const Landmarks& from, const Landmarks& to)
+    : coincident_(std::min(coincident_mm, coincident_ratio * root_mean_square_radius(from.all()))) {
     auto pairing = pair_by_name(from, to);
     for (const auto& pair : pairing.pairs) add(pair.name, pair.source_mm, pair.target_mm);
     only_in_from_ = std::move(pairing.only_in_source);
@@ -16,7 +34,7 @@ LandmarkPairs::LandmarkPairs(const Landmarks& from, const Landmarks& to) {
 
 bool LandmarkPairs::add(const std::string& name, const Point& from_mm, const Point& to_mm) {
     for (std::size_t k = 0; k < from_mm_.size(); ++k)
-        if ((from_mm_[k] - from_mm).norm() < coincident_mm) {
+        if ((from_mm_[k] - from_mm).norm() < coincident_) {
             merged_.push_back(fmt::format("'{}' lies on '{}'", name, names_[k]));
             return false;
         }

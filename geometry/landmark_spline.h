@@ -18,7 +18,8 @@ public:
     /// All landmarks that both have, in the order of `from`.
     LandmarkPairs(const Landmarks& from, const Landmarks& to);
 
-    /// False: left out, since it lies within `coincident_mm` of an earlier one.
+    /// False: left out, since it lies within `coincident_mm` of an earlier one (or the share `coincident_ratio`
+    /// of a smaller cloud's size).
     bool add(const std::string& name, const Point& from_mm, const Point& to_mm);
     /// @throws what ThinPlateSpline::fit throws.
     [[nodiscard]] ThinPlateSpline fit(const ThinPlateSplineOptions& options = {}) const;
@@ -35,8 +36,12 @@ public:
 
     /// Far below the spacing of any scanner, and below what anybody marks.
     static constexpr double coincident_mm = 0.01;
+    /// Of the root mean square radius of `from`, where that is less: coordinates may be in another unit. On a face 0.04
+    /// mm.
+    static constexpr double coincident_ratio = 1e-3;
 
 private:
+    double coincident_ = coincident_mm;  ///< as the coordinates are given
     std::vector<Point> from_mm_, to_mm_;
     std::vector<std::string> names_, merged_, only_in_from_, only_in_to_;
 };

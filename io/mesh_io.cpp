@@ -145,6 +145,10 @@ LengthUnit parse_length_unit(const std::string& text) {
     throw InputError(fmt::format("unit {} is not known; use mm, cm or m", base::in_quotes(text)));
 }
 
+const char* to_string(LengthUnit unit) {
+    return unit == LengthUnit::metre ? "m" : unit == LengthUnit::centimetre ? "cm" : "mm";
+}
+
 double millimetres_per(LengthUnit unit) {
     switch (unit) {
         case LengthUnit::millimetre:

@@ -12,6 +12,7 @@ namespace mimik::io {
 /// Units of a file that does not state them; Mimik works in millimetres and converts here, at the reader.
 enum class LengthUnit { millimetre, centimetre, metre };
 [[nodiscard]] LengthUnit parse_length_unit(const std::string& text);  ///< "mm", "cm", "m"; throws InputError
+[[nodiscard]] const char* to_string(LengthUnit unit);                 ///< "mm", "cm", "m"
 [[nodiscard]] double millimetres_per(LengthUnit unit);
 
 enum class MeshFormat { ply, obj, stl, pcd, vtp };

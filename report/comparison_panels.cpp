@@ -1,6 +1,7 @@
 #include "report/comparison_panels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -14,21 +15,19 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "evaluation/active_zone.h"
+#include "evaluation/estimator.h"
 #include "evaluation/surface_distance.h"
 #include "geometry/landmark_spline.h"
-#include "io/json_values.h"
+#include "geometry/statistics.h"
 #include "io/landmark_io.h"
 #include "io/mesh_io.h"
 #include "modeling/source_expression.h"
+#include "report/figure_description.h"
 
 namespace mimik::report {
 
-using evaluation::ActiveZone;
-using evaluation::Method;
-using evaluation::ScoredTarget;
-
 using animation::AnimatedFace;
-using animation::TargetFace;
+using animation::PreparedTarget;
 using facs::ControlKind;
 using facs::FacsCatalogue;
 using geometry::Mesh;
@@ -36,7 +35,6 @@ using geometry::Point;
 using modeling::ExpressionModel;
 using preprocessing::Face;
 using preprocessing::Workspace;
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 namespace {
@@ -59,19 +57,20 @@ struct Person {
     std::vector<NamedControl> controls;       ///< on the neutral face
     std::vector<NamedControl> real_controls;  ///< on the real scan, frame of the neutral one
     std::optional<Face> real;
-    std::optional<ScoredTarget> scored;
+    std::optional<evaluation::ScoredTarget> scored;
     ComparedPerson compared;
 };
 
-TargetFace target_face(const Face& neutral, const Method& method) {
-    const auto frame = method.model.normalisation;
-    return {neutral, frame, frame == modeling::Normalisation::affine};
-}
-
-AnimatedFace animated_face(const TargetFace& target, const ExpressionModel& model, const Method& method,
+AnimatedFace animated_face(const PreparedTarget& target, const ExpressionModel& model, const ComparisonRequest& request,
                            double magnitude) {
     const animation::WeightedExpression weighted{&model, magnitude};
-    return animation::animate(target, std::span(&weighted, 1), method.animation);
+    return animation::animate(target, std::span(&weighted, 1), request.animation);
+}
+
+std::vector<Point> moved_vertices(const geometry::QuadGrid& grid, const AnimatedFace& animated) {
+    auto moved = grid.vertices_mm;
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] += animated.field.mm[v];
+    return moved;
 }
 
 modeling::ExpressionSource source_of(const Workspace& workspace, const ComparisonRequest& request) {
@@ -100,8 +99,6 @@ Point centre_of(const geometry::QuadGrid& grid, geometry::BridgedVertices bridge
     return 0.5 * (low + high);
 }
 
-Json json_point(const Point& p) { return {p.x(), p.y(), p.z()}; }
-
 /// `name,x,y,z,kind` of muscle and wrinkle points; coverage points in a file of their own, since they stand for no
 /// muscle. @return whether there was any.
 bool write_controls(const fs::path& file, const std::vector<NamedControl>& controls, bool coverage) {
@@ -111,14 +108,15 @@ bool write_controls(const fs::path& file, const std::vector<NamedControl>& contr
         if (control.kind == ControlKind::anchor || (control.kind == ControlKind::coverage) != coverage) continue;
         any = true;
         text += fmt::format("{},{:.17g},{:.17g},{:.17g},{}\n", base::csv_field(control.name), control.position_mm.x(),
-                            control.position_mm.y(), control.position_mm.z(), modeling::to_string(control.kind));
+                            control.position_mm.y(), control.position_mm.z(), facs::to_string(control.kind));
     }
     if (any) base::write_atomically(file, text);
     return any;
 }
 
 /// Distances per vertex of a mesh made from a grid: NaN, drawn in grey, where no distance can be had.
-geometry::VertexAttribute distance_attribute(const ScoredTarget& scored, const std::vector<Point>& vertices_mm,
+geometry::VertexAttribute distance_attribute(const evaluation::ScoredTarget& scored,
+                                             const std::vector<Point>& vertices_mm,
                                              const std::vector<std::uint32_t>& kept) {
     std::vector<std::uint8_t> counts(vertices_mm.size(), 0);
     for (const auto v : scored.vertices) counts[v] = vertices_mm[v].allFinite() ? 1 : 0;
@@ -128,45 +126,47 @@ geometry::VertexAttribute distance_attribute(const ScoredTarget& scored, const s
     return attribute;
 }
 
-/// A description being made: the files of the panels go beside it.
+/// A figure being made: the files of its panels lie beside its description.
 class FigureFolder {
 public:
-    FigureFolder(fs::path folder, const ComparisonRequest& request) : folder_(std::move(folder)), request_(request) {
+    FigureFolder(fs::path folder, const ComparisonRequest& request)
+        : folder_(std::move(folder)), view_(figures::parse_view(request.view)) {
         remove_earlier();
     }
 
     [[nodiscard]] fs::path file(const std::string& name) const { return folder_ / name; }
     /// A panel that shows `mesh` with its middle at `centre_mm`.
-    Json& add_panel(const std::string& mesh, const std::string& caption, const Point& centre_mm) {
-        panels_.push_back({{"mesh", mesh},
-                           {"caption", fmt::format("({}) {}", letter(panels_.size()), caption)},
-                           {"centre_mm", json_point(centre_mm)}});
-        return panels_.back();
+    PanelDescription& add_panel(const std::string& mesh, const std::string& caption, const Point& centre_mm) {
+        const auto place = letter(description_.panels.size());
+        auto& panel = description_.panels.emplace_back();
+        panel.mesh = file(mesh);
+        panel.caption = fmt::format("({}) {}", place, caption);
+        panel.view = view_;
+        panel.centre_mm = centre_mm;
+        return panel;
     }
-    void add_controls(Json& panel, const std::vector<NamedControl>& controls, const std::string& stem) const {
-        if (write_controls(file(stem + ".csv"), controls, false)) panel["controls"] = stem + ".csv";
+    void add_controls(PanelDescription& panel, const std::vector<NamedControl>& controls,
+                      const std::string& stem) const {
+        if (write_controls(file(stem + ".csv"), controls, false)) panel.controls = file(stem + ".csv");
         // Smaller and paler than the catalogue's own points: there are many, and they only fill the zone.
-        const auto coverage = stem + "_coverage.csv";
-        if (write_controls(file(coverage), controls, true))
-            panel["markers"] = Json::array(
-                {{{"file", coverage}, {"name", "coverage controls"}, {"colour", "#8c8c8c"}, {"radius_mm", 1.2}}});
+        const auto coverage = file(stem + "_coverage.csv");
+        if (write_controls(coverage, controls, true))
+            panel.markers.push_back({coverage, "coverage controls", {0x8c, 0x8c, 0x8c}, 1.2});
     }
     /// @return the file's path
-    fs::path finish(const std::string& title, int columns, double scale_bar_mm) const {
-        const Json document = {{"schema", 1},
-                               {"title", title},
-                               {"columns", columns},
-                               {"panel_width_px", panel_width_px},
-                               {"panel_height_px", panel_height_px},
-                               {"font_size_px", 17},
-                               {"scale_bar_mm", scale_bar_mm},
-                               {"legend", true},
-                               {"view", request_.view},
-                               {"panels", panels_}};
-        base::write_atomically(file(description_file), io::json_text(document));
+    fs::path finish(const std::string& title, int columns, double scale_bar_mm) {
+        auto& page = description_.page;
+        page.title = title;
+        page.columns = columns;
+        page.panel_width_px = panel_width_px;
+        page.panel_height_px = panel_height_px;
+        page.font_size_px = 17;
+        page.scale_bar_mm = scale_bar_mm;
+        page.legend = true;
+        write_figure_description(file(description_file), description_);
         return file(description_file);
     }
-    [[nodiscard]] std::size_t panels() const { return panels_.size(); }
+    [[nodiscard]] std::size_t panels() const { return description_.panels.size(); }
 
 private:
     /// a ... z, aa, ab, ...
@@ -178,18 +178,13 @@ private:
     void remove_earlier() const {
         std::error_code ignored;
         if (!fs::is_regular_file(file(description_file), ignored)) return;
-        const auto remove = [&](const nlohmann::json& name) {
-            if (name.is_string() && fs::path(name.get<std::string>()).filename() == name.get<std::string>())
-                fs::remove(file(name.get<std::string>()), ignored);
+        const auto remove = [&](const fs::path& named) {
+            if (!named.empty() && named.parent_path() == folder_) fs::remove(named, ignored);
         };
         try {
-            const auto text = base::read_text(file(description_file), io::most_json_bytes);
-            const auto earlier = io::parse_json(text, description_file);
-            for (const auto& panel : earlier.at("panels")) {
-                for (const char* key : {"mesh", "landmarks", "controls"})
-                    if (panel.contains(key)) remove(panel.at(key));
-                if (!panel.contains("markers")) continue;
-                for (const auto& markers : panel.at("markers")) remove(markers.at("file"));
+            for (const auto& panel : read_figure_description(file(description_file)).panels) {
+                for (const auto& named : {panel.mesh, panel.landmarks, panel.controls}) remove(named);
+                for (const auto& marker : panel.markers) remove(marker.file);
             }
         } catch (const std::exception&) {
             return;  // somebody else's: what it names is not known
@@ -198,27 +193,28 @@ private:
     }
 
     fs::path folder_;
-    const ComparisonRequest& request_;
-    std::vector<Json> panels_;
+    figures::View view_;
+    FigureDescription description_;
 };
 
 /// What makes another picture of the same people by the same method, each in a word: "_r2logr_no-anchors_left_bridged".
 std::string variant_suffix(const ComparisonRequest& request) {
-    const auto usual = evaluation::method_by_name(request.method.name == "thesis" ? "thesis" : "default");
-    auto suffix = modeling::variant_suffix(request.method.model, usual.model);
+    const bool thesis = request.method_name == "thesis";
+    auto suffix =
+        modeling::variant_suffix(request.model, thesis ? modeling::ModelOptions::thesis() : modeling::ModelOptions{});
     if (request.view != ComparisonRequest{}.view) suffix += "_" + request.view;
     if (request.bridged == geometry::BridgedVertices::keep) suffix += "_bridged";
     return suffix;
 }
 
 /// Mesh of a series; a magnitude that reads the same has the same file.
-std::string series_mesh(const std::string& expression, double magnitude) {
-    return fmt::format("{}_m{:g}.ply", expression, magnitude);
+std::string series_mesh(const facs::Expression& expression, double magnitude) {
+    return fmt::format("{}_m{:g}.ply", expression.name(), magnitude);
 }
 
-std::string expression_words(const FacsCatalogue& catalogue, const std::string& expression) {
-    const auto units = catalogue.resolve(expression);
-    auto words = facs::expression_name(catalogue, expression);
+std::string expression_words(const FacsCatalogue& catalogue, const facs::Expression& expression) {
+    const auto units = catalogue.units(expression);
+    auto words = expression.name();
     if (units.size() == 1 && words.starts_with("AU")) words += " " + units.front().unit->name;
     return words;
 }
@@ -265,11 +261,11 @@ void add_person(FigureFolder& folder, const Person& person, const geometry::Land
 
     std::vector<std::uint32_t> kept;
     Mesh neutral = geometry::to_mesh(person.neutral.grid, request.bridged, &kept);
-    Mesh animated = animation::to_mesh(person.animated, TargetFace(person.neutral, request.method.model.normalisation),
-                                       {.bridged = request.bridged});
+    Mesh animated = animation::to_mesh(person.animated, person.neutral, {.bridged = request.bridged});
     if (person.scored) {
         neutral.attributes.push_back(distance_attribute(*person.scored, person.neutral.grid.vertices_mm, kept));
-        animated.attributes.push_back(distance_attribute(*person.scored, person.animated.grid.vertices_mm, kept));
+        animated.attributes.push_back(
+            distance_attribute(*person.scored, moved_vertices(person.neutral.grid, person.animated), kept));
     }
     io::write_mesh(folder.file(stem("neutral.ply")), neutral);
     io::write_mesh(folder.file(stem("animated.ply")), animated);
@@ -279,7 +275,7 @@ void add_person(FigureFolder& folder, const Person& person, const geometry::Land
         person.role == "average" ? std::string("average face") : person.role + " " + person.neutral.id.subject;
     auto& first =
         folder.add_panel(stem("neutral.ply"), (person.role == "average" ? "The " : "Neutral ") + who, centre_mm);
-    first["landmarks"] = stem("landmarks.csv");
+    first.landmarks = folder.file(stem("landmarks.csv"));
     folder.add_controls(first, person.controls, stem("controls"));
     folder.add_panel(stem("animated.ply"), "Animated " + who, centre_mm);
     if (!person.real) return;
@@ -293,31 +289,29 @@ void add_person(FigureFolder& folder, const Person& person, const geometry::Land
     const auto coloured = [&](const char* mesh, const std::string& words, double mean_mm) {
         auto& panel = folder.add_panel(
             stem(mesh), fmt::format("{} to real scan\nmean {:.2f} mm in the zone", words, mean_mm), centre_mm);
-        panel["scalar"] = {{"attribute", "distance_mm"}, {"label", "distance, mm"}, {"range", {0, scale_mm}}};
+        panel.scalar = {.attribute = "distance_mm", .label = "distance, mm", .range = std::array{0.0, scale_mm}};
     };
-    coloured("animated.ply", "Animated", person.compared.distances.zone_mm);
-    coloured("neutral.ply", "Neutral", person.compared.distances.zone_nothing_mm);
+    coloured("animated.ply", "Animated", person.compared.zone_mm);
+    coloured("neutral.ply", "Neutral", person.compared.zone_nothing_mm);
 }
 
 /// The real scan's distances, of the person as animated and of doing nothing.
-void compare(Person& person, const Workspace& workspace, const ActiveZone& zone) {
+void compare(Person& person, const Workspace& workspace, const evaluation::ActiveZone& zone) {
     if (!person.real) return;
-    const auto& grid = person.neutral.grid;
-    person.scored = evaluation::scored_target(grid, person.real->grid, person.real->neutral_from_scan,
+    const auto neutral = geometry::face_surface(person.neutral.grid, person.neutral.landmarks);
+    person.scored = evaluation::scored_target(neutral, person.real->grid, person.real->neutral_from_scan,
                                               evaluation::carry_zone(zone, workspace.average(), person.neutral));
-    if (person.scored->vertices.empty())
-        throw InputError(
-            fmt::format("{} does not lie on {}: nothing of the neutral face sees it; 'mimik preprocess "
-                        "--sheets' shows how it was aligned",
-                        person.real->id.name(), person.neutral.id.name()));
-    if (std::find(person.scored->in_zone.begin(), person.scored->in_zone.end(), 1) == person.scored->in_zone.end())
-        throw InputError(
-            fmt::format("{} does not lie on {} where the expression is: nothing of its zone sees it; 'mimik preprocess "
-                        "--sheets' shows how it was aligned",
-                        person.real->id.name(), person.neutral.id.name()));
-    person.compared = {person.neutral.id.subject,
-                       evaluation::judge_case(*person.scored, person.animated.grid.vertices_mm,
-                                              person.animated.displacement_mm, grid, true)};
+    const auto refuse = [&](const char* what) {
+        throw InputError(fmt::format("{} does not lie on {}{}; 'mimik preprocess --sheets' shows how it was aligned",
+                                     person.real->id.name(), person.neutral.id.name(), what));
+    };
+    if (person.scored->vertices.empty()) refuse(": nothing of the neutral face sees it");
+    if (person.scored->zone_size() == 0) refuse(" where the expression is: nothing of its zone sees it");
+    const auto still = geometry::DisplacementField::still(neutral.size());
+    const auto animated = evaluation::distances_to_real_scan({*person.scored, neutral, person.animated.field});
+    const auto nothing = evaluation::distances_to_real_scan({*person.scored, neutral, still});
+    person.compared = {person.neutral.id.subject, animated.zone_mm, nothing.zone_mm, animated.face_mm.value_or(0),
+                       nothing.face_mm.value_or(0)};
 }
 
 void add_remarks(std::vector<std::string>& remarks, const std::vector<std::string>& more) {
@@ -327,107 +321,117 @@ void add_remarks(std::vector<std::string>& remarks, const std::vector<std::strin
 
 void add_left_out(ComparisonFigure& figure, const ExpressionModel& model) {
     std::vector<std::string> remarks;
-    for (const auto& reason : model.left_out) remarks.push_back(fmt::format("{}: {}", model.expression, reason));
+    for (const auto& reason : model.left_out) remarks.push_back(fmt::format("{}: {}", model.expression.name(), reason));
     add_remarks(figure.remarks, remarks);
 }
 
 void add_unusable(ComparisonFigure& figure, const ExpressionModel& model) {
     for (const auto& scan : model.unusable_scans)
-        figure.failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression, scan));
+        figure.failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression.name(), scan));
 }
 
 }  // namespace
 
-double ComparedPerson::explained() const {
-    return distances.zone_nothing_mm > 0 ? 1 - distances.zone_mm / distances.zone_nothing_mm : 0;
+std::optional<double> ComparedPerson::explained() const {
+    return zone_nothing_mm > 0 ? std::optional(1 - zone_mm / zone_nothing_mm) : std::nullopt;
 }
 
-std::string comparison_name(const FacsCatalogue& catalogue, const ComparisonRequest& request) {
-    const double m = request.method.magnitude;
-    return fmt::format("{}_{}{}_on_{}_{}{}", facs::expression_name(catalogue, request.expression),
+std::string comparison_name(const ComparisonRequest& request) {
+    const double m = request.magnitude;
+    return fmt::format("{}_{}{}_on_{}_{}{}", request.expression.name(),
                        m == 1.0 ? std::string() : fmt::format("m{:g}_", m), request.source, request.target,
-                       request.method.name, variant_suffix(request));
+                       request.method_name, variant_suffix(request));
 }
 
-std::string series_name(const FacsCatalogue& catalogue, const ComparisonRequest& request,
-                        std::span<const std::string> expressions) {
+std::string series_name(const ComparisonRequest& request, std::span<const facs::Expression> expressions) {
     std::vector<std::string> names;
-    for (const auto& expression : expressions) names.push_back(facs::expression_name(catalogue, expression));
+    for (const auto& expression : expressions) names.push_back(expression.name());
     return fmt::format("{}_series_{}_on_{}_{}{}", fmt::join(names, "_"), request.source, request.target,
-                       request.method.name, variant_suffix(request));
+                       request.method_name, variant_suffix(request));
 }
 
 ComparedScans compared_scans(const Workspace& workspace, const FacsCatalogue& catalogue,
                              const ComparisonRequest& request) {
     workspace.refuse_hidden(request.target);
-    modeling::check_source(workspace, source_of(workspace, request), request.method.model);
+    modeling::check_source(workspace, source_of(workspace, request), request.model);
     (void)workspace.neutral(request.target);
-    (void)catalogue.resolve(request.expression);
+    (void)catalogue.units(request.expression);
     ComparedScans scans;
-    const auto sources =
-        modeling::source_scans(workspace, catalogue, request.expression, source_of(workspace, request));
+    const auto sources = modeling::source_scans(workspace, request.expression, source_of(workspace, request));
     if (request.source != "mean") scans.source = sources.front();
-    scans.target = workspace.expression(request.target, request.expression);
+    scans.target = workspace.scan_of(request.target, request.expression);
     return scans;
 }
+
+namespace {
+
+/// The source with its own scan, and what the model says of it.
+Person source_person(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
+                     const database::ScanId& scan, ExpressionModel& model, std::vector<std::string>& remarks) {
+    Person source("source");
+    source.neutral = workspace.face(workspace.neutral(request.source));
+    source.real = workspace.face(scan);
+    std::vector<modeling::FollowedPoint> followed;
+    model = modeling::measure_expression(catalogue, request.expression, workspace.average(), source.neutral,
+                                         *source.real, request.model, &followed);
+    for (const auto& point : followed) {
+        source.controls.push_back({point.name, point.kind, point.neutral_mm});
+        source.real_controls.push_back({point.name, point.kind, source.real->neutral_from_scan * point.expressive_mm});
+    }
+    if (!base::equal_ignoring_case(scan.code, request.expression.code()))
+        remarks.push_back(fmt::format("{} was taken from one side of {}", request.expression.code(), scan.name()));
+    return source;
+}
+
+/// The average face in the place of a source.
+Person average_in_place_of_source(const Workspace& workspace, const FacsCatalogue& catalogue,
+                                  const ComparisonRequest& request, ExpressionModel& model, ComparisonFigure& figure) {
+    model = modeling::model_from_workspace(workspace, catalogue, request.expression, source_of(workspace, request),
+                                           request.model);
+    add_unusable(figure, model);
+    Person average("average");
+    average.neutral = average_person(workspace);
+    for (const auto& point : model.points) average.controls.push_back({point.name, point.kind, point.position_mm});
+    return average;
+}
+
+Person target_person(const Workspace& workspace, const ComparisonRequest& request,
+                     const std::optional<database::ScanId>& scan, std::vector<std::string>& remarks) {
+    Person target("target");
+    target.neutral = workspace.face(workspace.neutral(request.target));
+    if (scan)
+        target.real = workspace.face(*scan);
+    else
+        remarks.push_back(
+            fmt::format("subject '{}' has no scan of expression '{}', so there is nothing to compare with",
+                        request.target, request.expression.code()));
+    return target;
+}
+
+}  // namespace
 
 ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsCatalogue& catalogue,
                                          const ComparisonRequest& request, const fs::path& folder) {
     const auto scans = compared_scans(workspace, catalogue, request);
-    const auto& method = request.method;
     ComparisonFigure figure;
     const auto zone = evaluation::active_zone_from_catalogue(request.expression, workspace.average(), catalogue);
 
     std::vector<Person> people;
     ExpressionModel model;
-    if (scans.source) {
-        Person source("source");
-        source.neutral = workspace.face(workspace.neutral(request.source));
-        source.real = workspace.face(*scans.source);
-        std::vector<modeling::FollowedPoint> followed;
-        model = modeling::measure_expression(catalogue, request.expression, workspace.average(), source.neutral,
-                                             *source.real, method.model, &followed);
-        for (const auto& point : followed) {
-            source.controls.push_back({point.name, point.kind, point.neutral_mm});
-            source.real_controls.push_back(
-                {point.name, point.kind, source.real->neutral_from_scan * point.expressive_mm});
-        }
-        if (!base::equal_ignoring_case(scans.source->code, request.expression))
-            figure.remarks.push_back(
-                fmt::format("{} was taken from one side of {}", request.expression, scans.source->name()));
-        people.push_back(std::move(source));
-    } else {
-        model = modeling::model_from_workspace(workspace, catalogue, request.expression, source_of(workspace, request),
-                                               method.model);
-        add_unusable(figure, model);
-        Person average("average");
-        average.neutral = average_person(workspace);
-        for (const auto& point : model.points) average.controls.push_back({point.name, point.kind, point.position_mm});
-        people.push_back(std::move(average));
-    }
-    if (request.target != request.source) {
-        Person target("target");
-        target.neutral = workspace.face(workspace.neutral(request.target));
-        if (scans.target)
-            target.real = workspace.face(*scans.target);
-        else
-            figure.remarks.push_back(
-                fmt::format("subject '{}' has no scan of expression '{}', so there is nothing to "
-                            "compare with",
-                            request.target, request.expression));
-        people.push_back(std::move(target));
-    }
+    people.push_back(scans.source ? source_person(workspace, catalogue, request, *scans.source, model, figure.remarks)
+                                  : average_in_place_of_source(workspace, catalogue, request, model, figure));
+    if (request.target != request.source)
+        people.push_back(target_person(workspace, request, scans.target, figure.remarks));
 
     for (auto& person : people) {
-        const auto face = target_face(person.neutral, method);
-        person.animated = animated_face(face, model, method, method.magnitude);
+        person.animated = animated_face(PreparedTarget(person.neutral), model, request, request.magnitude);
         if (person.role == "target")
             for (const auto& point : person.animated.points)
                 person.controls.push_back({point.name, point.kind, point.position_mm});
         add_remarks(figure.remarks, person.animated.remarks);
         compare(person, workspace, zone);
         if (!person.scored) continue;
-        figure.scale_mm = std::max(figure.scale_mm, evaluation::quantile(person.scored->nothing_mm, 0.99));
+        figure.scale_mm = std::max(figure.scale_mm, geometry::quantile(person.scored->nothing_mm, 0.99));
         figure.people.push_back(person.compared);
     }
     add_left_out(figure, model);
@@ -440,15 +444,15 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
     // A row per person where both have a real scan; else what there is, without gaps.
     const bool rows = people.size() == 1 || (people.front().real && people.back().real);
     const int columns = rows ? 5 : static_cast<int>(figure.panels + 1) / 2;
-    figure.description =
-        out.finish(fmt::format("{}: {} on {}, {} method{}", expression_words(catalogue, request.expression),
-                               source_words(request), request.target, method.name, magnitude_words(method.magnitude)),
-                   columns, 50);
+    figure.description = out.finish(
+        fmt::format("{}: {} on {}, {} method{}", expression_words(catalogue, request.expression), source_words(request),
+                    request.target, request.method_name, magnitude_words(request.magnitude)),
+        columns, 50);
     return figure;
 }
 
 void check_series(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
-                  std::span<const std::string> expressions, std::span<const double> magnitudes) {
+                  std::span<const facs::Expression> expressions, std::span<const double> magnitudes) {
     if (expressions.empty() || magnitudes.empty())
         throw InputError(fmt::format("a series of {} expressions at {} magnitudes; give one or more of each",
                                      expressions.size(), magnitudes.size()));
@@ -459,11 +463,11 @@ void check_series(const Workspace& workspace, const FacsCatalogue& catalogue, co
             if (!std::isfinite(magnitude) || magnitude < 0)
                 throw InputError(
                     fmt::format("magnitude {} of the series: give numbers of 0 (neutral) or more", magnitude));
-            if (!meshes.insert(series_mesh(facs::expression_name(catalogue, expression), magnitude)).second)
+            if (!meshes.insert(series_mesh(expression, magnitude)).second)
                 throw InputError(
                     fmt::format("expression '{}' at magnitude {} stands twice in the series, or as near "
                                 "as makes no difference; give each once",
-                                expression, magnitude));
+                                expression.code(), magnitude));
         }
         each.expression = expression;
         (void)compared_scans(workspace, catalogue, each);
@@ -471,32 +475,32 @@ void check_series(const Workspace& workspace, const FacsCatalogue& catalogue, co
 }
 
 ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCatalogue& catalogue,
-                                        const ComparisonRequest& request, std::span<const std::string> expressions,
+                                        const ComparisonRequest& request, std::span<const facs::Expression> expressions,
                                         std::span<const double> magnitudes, const fs::path& folder) {
     check_series(workspace, catalogue, request, expressions, magnitudes);
     ComparisonFigure figure;
     const auto neutral = workspace.face(workspace.neutral(request.target));
-    const auto face = target_face(neutral, request.method);
+    const PreparedTarget target(neutral);
     const Point centre_mm = centre_of(neutral.grid, request.bridged);
     FigureFolder out(folder, request);
     std::vector<std::string> words;
     for (const auto& expression : expressions) {
         const auto model = modeling::model_from_workspace(workspace, catalogue, expression,
-                                                          source_of(workspace, request), request.method.model);
+                                                          source_of(workspace, request), request.model);
         words.push_back(expression_words(catalogue, expression));
         add_left_out(figure, model);
         add_unusable(figure, model);
         for (const double magnitude : magnitudes) {
-            const auto animated = animated_face(face, model, request.method, magnitude);
+            const auto animated = animated_face(target, model, request, magnitude);
             add_remarks(figure.remarks, animated.remarks);
             const auto name = series_mesh(model.expression, magnitude);
-            io::write_mesh(out.file(name), animation::to_mesh(animated, face, {.bridged = request.bridged}));
-            out.add_panel(name, fmt::format("{}, m = {:g}", model.expression, magnitude), centre_mm);
+            io::write_mesh(out.file(name), animation::to_mesh(animated, neutral, {.bridged = request.bridged}));
+            out.add_panel(name, fmt::format("{}, m = {:g}", model.expression.name(), magnitude), centre_mm);
         }
     }
     figure.panels = out.panels();
     figure.description = out.finish(fmt::format("{} by magnitude: {} on {}, {} method", fmt::join(words, "; "),
-                                                source_words(request), request.target, request.method.name),
+                                                source_words(request), request.target, request.method_name),
                                     static_cast<int>(magnitudes.size()), 50);
     return figure;
 }

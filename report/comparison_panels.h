@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/case_score.h"
-#include "evaluation/experiment.h"
+#include "animation/animate.h"
 #include "facs/facs_catalogue.h"
 #include "geometry/quad_grid.h"
 #include "preprocessing/workspace.h"
@@ -18,8 +17,11 @@ namespace mimik::report {
 struct ComparisonRequest {
     std::string source = "mean";  ///< subject, or "mean" (of all others)
     std::string target;
-    std::string expression;  ///< "12", "12L", "HAPPY"
-    evaluation::Method method = evaluation::method_by_name("default");
+    facs::Expression expression;
+    std::string method_name = "default";  ///< for names of files and for titles
+    modeling::ModelOptions model;
+    animation::AnimationOptions animation;
+    double magnitude = 1.0;
     std::string view = "front";
     geometry::BridgedVertices bridged = geometry::BridgedVertices::leave_out;
 };
@@ -28,8 +30,9 @@ struct ComparisonRequest {
 /// draws it. The scan was brought onto the neutral one by its stable region: a truth, where there is one, is not used.
 struct ComparedPerson {
     std::string subject;
-    evaluation::CaseResult distances;
-    [[nodiscard]] double explained() const;  ///< 1 - distance / distance of doing nothing
+    double zone_mm = 0, zone_nothing_mm = 0;  ///< mean distance to the real scan in the zone; of doing nothing
+    double face_mm = 0, face_nothing_mm = 0;  ///< the same over the whole face
+    [[nodiscard]] std::optional<double> explained() const;  ///< 1 - distance / distance of doing nothing
 };
 
 struct ComparisonFigure {
@@ -44,15 +47,14 @@ struct ComparisonFigure {
 /// File name without extension: "AU12_bs003_on_bs007_default"; a magnitude other than 1 as "AU12_m0.5_...";
 /// what differs from the method and from the front view as "..._r2logr_no-anchors_left_bridged". Another catalogue is
 /// not told.
-[[nodiscard]] std::string comparison_name(const facs::FacsCatalogue& catalogue, const ComparisonRequest& request);
+[[nodiscard]] std::string comparison_name(const ComparisonRequest& request);
 /// "AU4_AU12_series_mean_on_bs007_default".
-[[nodiscard]] std::string series_name(const facs::FacsCatalogue& catalogue, const ComparisonRequest& request,
-                                      std::span<const std::string> expressions);
+[[nodiscard]] std::string series_name(const ComparisonRequest& request, std::span<const facs::Expression> expressions);
 
 /// Everything that can be found out about a request before any work. Gives the scan that the expression is taken from
 /// (none for a mean) and the target's real one (none if the target was not scanned with it).
 /// @throws InputError if a subject is missing or must not be shown, the source (of a mean: everybody) lacks the
-/// expression, or the method has no mean.
+/// expression, or the model has no mean.
 struct ComparedScans {
     std::optional<database::ScanId> source, target;
 };
@@ -76,14 +78,17 @@ struct ComparedScans {
 /// expression or magnitude, one is negative or no number, or one stands twice (to the six digits that its file name
 /// has).
 void check_series(const preprocessing::Workspace& workspace, const facs::FacsCatalogue& catalogue,
-                  const ComparisonRequest& request, std::span<const std::string> expressions,
+                  const ComparisonRequest& request, std::span<const facs::Expression> expressions,
                   std::span<const double> magnitudes);
 
 /// Fig. 5-12: the target with each expression (a row) at each magnitude (a column), one frame and centre for all.
-/// `request.expression` and the method's magnitude are not used.
+/// `request.expression` and its magnitude are not used.
 /// @throws as write_comparison_panels and check_series.
-[[nodiscard]] ComparisonFigure write_magnitude_series(
-    const preprocessing::Workspace& workspace, const facs::FacsCatalogue& catalogue, const ComparisonRequest& request,
-    std::span<const std::string> expressions, std::span<const double> magnitudes, const std::filesystem::path& folder);
+[[nodiscard]] ComparisonFigure write_magnitude_series(const preprocessing::Workspace& workspace,
+                                                      const facs::FacsCatalogue& catalogue,
+                                                      const ComparisonRequest& request,
+                                                      std::span<const facs::Expression> expressions,
+                                                      std::span<const double> magnitudes,
+                                                      const std::filesystem::path& folder);
 
 }  // namespace mimik::report

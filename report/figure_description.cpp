@@ -13,13 +13,14 @@
 #include "base/text.h"
 #include "database/bnt.h"
 #include "database/hidden_subjects.h"
-#include "figures/panel_scene.h"
 #include "io/json_values.h"
 #include "io/landmark_io.h"
 
 namespace mimik::report {
 
 using figures::ArrowSet;
+using figures::Colour;
+using figures::ColourMap;
 using figures::Figure;
 using figures::landmark_colour;
 using figures::MarkerSet;
@@ -129,7 +130,7 @@ Scalar scalar_of(const Json& value, const std::string& place) {
     if (!keys.take("attribute", scalar.attribute)) keys.fail("'attribute' is missing");
     keys.take("label", scalar.label);
     keys.take("range", scalar.range, numbers<2>);
-    keys.take_parsed("colour_map", scalar.map, parse_colour_map);
+    keys.take_parsed("colour_map", scalar.map, figures::parse_colour_map);
     keys.finish();
     return scalar;
 }
@@ -140,7 +141,7 @@ MarkerFile marker_of(const Json& value, const std::string& place, const fs::path
     const auto path = [&](const Json& name, const std::string&) { return folder / name.get<std::string>(); };
     if (!keys.take("file", marker.file, path)) keys.fail("'file' is missing");
     keys.take("name", marker.name);
-    keys.take_parsed("colour", marker.colour, parse_colour);
+    keys.take_parsed("colour", marker.colour, figures::parse_colour);
     keys.take("radius_mm", marker.radius_mm);
     keys.finish();
     return marker;
@@ -319,8 +320,8 @@ FigureDescription decode_figure_description(const std::string& text, const std::
     keys.take("panel_width_px", page.panel_width_px);
     keys.take("panel_height_px", page.panel_height_px);
     keys.take("font_size_px", page.font_size_px);
-    keys.take_parsed("background", page.background, parse_colour);
-    keys.take_parsed("framing", page.framing, parse_framing);
+    keys.take_parsed("background", page.background, figures::parse_colour);
+    keys.take_parsed("framing", page.framing, figures::parse_framing);
     keys.take("height_mm", page.height_mm, [](const Json& value, const std::string&) { return value.get<double>(); });
     keys.take("scale_bar_mm", page.scale_bar_mm);
     keys.take("legend", page.legend);
@@ -337,6 +338,87 @@ FigureDescription decode_figure_description(const std::string& text, const std::
     if (!has_panels) keys.fail("'panels' is missing");
     keys.finish();
     return description;
+}
+
+namespace {
+
+using Ordered = nlohmann::ordered_json;
+
+std::string colour_text(const Colour& colour) {
+    return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
+}
+
+/// Sets a key unless the value is what a reader takes without it.
+template <class T>
+void put(Ordered& json, const char* key, const T& value, const T& usual) {
+    if (value != usual) json[key] = value;
+}
+
+void put_file(Ordered& json, const char* key, const fs::path& file, const fs::path& folder) {
+    if (!file.empty()) json[key] = file.lexically_proximate(folder).generic_string();
+}
+
+void put_view(Ordered& json, const View& view) {
+    if (view.yaw_deg != View{}.yaw_deg || view.pitch_deg != View{}.pitch_deg)
+        json["view"] = {{"yaw_deg", view.yaw_deg}, {"pitch_deg", view.pitch_deg}};
+}
+
+Ordered json_of(const Scalar& scalar) {
+    Ordered json = {{"attribute", scalar.attribute}};
+    put(json, "label", scalar.label, std::string());
+    if (scalar.range) json["range"] = *scalar.range;
+    if (scalar.map != ColourMap::sequential) json["colour_map"] = figures::to_string(scalar.map);
+    return json;
+}
+
+Ordered json_of(const PanelDescription& panel, const fs::path& folder) {
+    Ordered json = Ordered::object();
+    put_file(json, "mesh", panel.mesh, folder);
+    if (panel.unit != io::LengthUnit::millimetre) json["unit"] = io::to_string(panel.unit);
+    put_file(json, "texture", panel.texture, folder);
+    put(json, "textured", panel.textured, false);
+    put_file(json, "landmarks", panel.landmarks, folder);
+    put_file(json, "controls", panel.controls, folder);
+    put_file(json, "arrows", panel.arrows, folder);
+    for (const auto& marker : panel.markers) {
+        Ordered one = Ordered::object();
+        put_file(one, "file", marker.file, folder);
+        put(one, "name", marker.name, std::string());
+        one["colour"] = colour_text(marker.colour);
+        one["radius_mm"] = marker.radius_mm;
+        json["markers"].push_back(std::move(one));
+    }
+    if (panel.scalar) json["scalar"] = json_of(*panel.scalar);
+    put(json, "caption", panel.caption, std::string());
+    put_view(json, panel.view);
+    if (panel.centre_mm) json["centre_mm"] = {panel.centre_mm->x(), panel.centre_mm->y(), panel.centre_mm->z()};
+    return json;
+}
+
+}  // namespace
+
+std::string encode_figure_description(const FigureDescription& description, const fs::path& folder) {
+    const auto& page = description.page;
+    const Figure usual;
+    Ordered json = {{"schema", 1}};
+    put(json, "title", page.title, usual.title);
+    put(json, "columns", page.columns, usual.columns);
+    put(json, "panel_width_px", page.panel_width_px, usual.panel_width_px);
+    put(json, "panel_height_px", page.panel_height_px, usual.panel_height_px);
+    put(json, "font_size_px", page.font_size_px, usual.font_size_px);
+    if (page.background != usual.background) json["background"] = colour_text(page.background);
+    if (page.framing != usual.framing) json["framing"] = figures::to_string(page.framing);
+    if (page.height_mm) json["height_mm"] = *page.height_mm;
+    put(json, "scale_bar_mm", page.scale_bar_mm, usual.scale_bar_mm);
+    put(json, "legend", page.legend, usual.legend);
+    put(json, "supersampling", page.supersampling, usual.supersampling);
+    json["panels"] = Ordered::array();
+    for (const auto& panel : description.panels) json["panels"].push_back(json_of(panel, folder));
+    return io::json_text(json);
+}
+
+void write_figure_description(const fs::path& file, const FigureDescription& description) {
+    base::write_atomically(file, encode_figure_description(description, file.parent_path()));
 }
 
 FigureDescription read_figure_description(const fs::path& file) {

@@ -47,6 +47,12 @@ struct FigureDescription {
 [[nodiscard]] FigureDescription decode_figure_description(const std::string& text, const std::string& name,
                                                           const std::filesystem::path& folder);
 
+/// The same description as text: what is as a reader takes it anyway is left out. Files are written relative to
+/// `folder`.
+[[nodiscard]] std::string encode_figure_description(const FigureDescription& description,
+                                                    const std::filesystem::path& folder);
+void write_figure_description(const std::filesystem::path& file, const FigureDescription& description);
+
 /// Reads every file the description names. @throws InputError naming the file.
 [[nodiscard]] figures::Figure load_figure(const FigureDescription& description);
 

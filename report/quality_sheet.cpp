@@ -10,9 +10,10 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/parallel.h"
-#include "io/json_values.h"
 #include "io/landmark_io.h"
 #include "io/mesh_io.h"
+#include "preprocessing/workspace_layout.h"
+#include "report/figure_description.h"
 
 namespace mimik::report {
 
@@ -35,7 +36,7 @@ constexpr std::array<std::uint8_t, 3> measured_colour = {222, 196, 178}, bridged
 class Sheet {
 public:
     Sheet(const Workspace& workspace, std::string subject)
-        : workspace_(workspace), subject_(std::move(subject)), folder_(workspace.root() / "sheets") {
+        : workspace_(workspace), subject_(std::move(subject)), folder_(preprocessing::sheets_folder(workspace.root())) {
         for (const auto& id : workspace.scans())
             if (id.subject == subject_) scans_.push_back(id);
     }
@@ -96,44 +97,53 @@ private:
 
     /// Coloured meshes, landmarks and the description. @return the description
     [[nodiscard]] fs::path write_parts() const {
-        auto panels = nlohmann::ordered_json::array();
+        FigureDescription description;
         const auto first = workspace_.neutral(subject_);
         Point centre_mm = Point::Zero();
         auto order = scans_;
         std::stable_partition(order.begin(), order.end(), [&](const ScanId& id) { return id == first; });
         for (const auto& id : order) {
             const auto face = workspace_.face(id);
-            auto mesh = geometry::to_mesh(face.grid);
-            Point low = Point::Constant(std::numeric_limits<double>::infinity()), high = -low;
-            for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
-                auto& p = mesh.vertices_mm[v];
-                p = face.neutral_from_scan * p;
-                low = low.cwiseMin(p);
-                high = high.cwiseMax(p);
-                const bool measured =
-                    mesh.attributes.front().values[v] == static_cast<double>(geometry::VertexOrigin::measured);
-                mesh.colours.push_back(measured ? measured_colour : bridged_colour);
-            }
-            if (id == first) centre_mm = 0.5 * (low + high);
-            io::write_mesh(parts() / (id.name() + ".ply"), mesh);
-            io::write_landmarks(parts() / (id.name() + ".csv"),
-                                geometry::transformed(face.landmarks, face.neutral_from_scan));
-            panels.push_back({{"mesh", id.name() + ".ply"},
-                              {"landmarks", id.name() + ".csv"},
-                              {"caption", caption(face, id == first)},
-                              {"centre_mm", io::to_json(centre_mm)}});
+            const auto mesh = coloured_mesh(face);
+            if (id == first) centre_mm = middle_of(mesh);
+            auto& panel = description.panels.emplace_back();
+            panel.mesh = parts() / (id.name() + ".ply");
+            panel.landmarks = parts() / (id.name() + ".csv");
+            panel.caption = caption(face, id == first);
+            panel.centre_mm = centre_mm;
+            io::write_mesh(panel.mesh, mesh);
+            io::write_landmarks(panel.landmarks, geometry::transformed(face.landmarks, face.neutral_from_scan));
         }
-        const nlohmann::ordered_json document = {
-            {"schema", 1},
-            {"title", fmt::format("{}: {} scans; landmarks blue, bridged surface green", subject_, order.size())},
-            {"panel_width_px", 270},
-            {"panel_height_px", 320},
-            {"font_size_px", 15},
-            {"scale_bar_mm", 50},
-            {"panels", panels}};
-        auto description = parts() / "figure.json";
-        base::write_atomically(description, io::json_text(document));
-        return description;
+        auto& page = description.page;
+        page.title = fmt::format("{}: {} scans; landmarks blue, bridged surface green", subject_, order.size());
+        page.panel_width_px = 270;
+        page.panel_height_px = 320;
+        page.font_size_px = 15;
+        page.scale_bar_mm = 50;
+        auto file = parts() / "figure.json";
+        write_figure_description(file, description);
+        return file;
+    }
+
+    /// Brought to the subject's first neutral; what is measured and what is bridged in colours of their own.
+    [[nodiscard]] static geometry::Mesh coloured_mesh(const Face& face) {
+        auto mesh = geometry::to_mesh(face.grid);
+        for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+            mesh.vertices_mm[v] = face.neutral_from_scan * mesh.vertices_mm[v];
+            const bool measured =
+                mesh.attributes.front().values[v] == static_cast<double>(geometry::VertexOrigin::measured);
+            mesh.colours.push_back(measured ? measured_colour : bridged_colour);
+        }
+        return mesh;
+    }
+
+    [[nodiscard]] static Point middle_of(const geometry::Mesh& mesh) {
+        Point low = Point::Constant(std::numeric_limits<double>::infinity()), high = -low;
+        for (const auto& p : mesh.vertices_mm) {
+            low = low.cwiseMin(p);
+            high = high.cwiseMax(p);
+        }
+        return 0.5 * (low + high);
     }
 
     const Workspace& workspace_;
@@ -145,28 +155,21 @@ private:
 std::vector<fs::path> files_of_sheets(const Workspace& workspace) {
     std::error_code none;
     std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(workspace.root() / "sheets", none)) found.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(preprocessing::sheets_folder(workspace.root()), none))
+        found.push_back(entry.path());
     return found;
 }
 
 }  // namespace
 
-void remove_hidden_sheets(const Workspace& workspace) {
-    // Also of subjects that this workspace has no scan of any more.
-    for (const auto& path : files_of_sheets(workspace))
-        if (const auto subject = path.stem().string(); workspace.hidden(subject)) Sheet(workspace, subject).remove();
-}
-
 QualitySheetReport draw_quality_sheets(const Workspace& workspace, const DrawFigure& draw,
                                        const std::function<void(const std::string&)>& progress) {
-    remove_hidden_sheets(workspace);
+    preprocessing::remove_sheets_of_hidden(workspace);
     std::error_code none;
     for (const auto& path : files_of_sheets(workspace))  // of runs that were killed
         if (path.extension() == ".parts") fs::remove_all(path, none);
 
-    std::vector<std::string> subjects;
-    for (const auto& subject : workspace.subjects())
-        if (!workspace.hidden(subject)) subjects.push_back(subject);
+    const auto subjects = workspace.shown_subjects();
     enum class Outcome { drawn, up_to_date, failed };
     std::vector<Outcome> outcomes(subjects.size(), Outcome::failed);
     std::vector<std::string> faults(subjects.size());

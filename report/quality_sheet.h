@@ -29,7 +29,4 @@ struct QualitySheetReport {
     const preprocessing::Workspace& workspace, const DrawFigure& draw,
     const std::function<void(const std::string& subject)>& progress = {});
 
-/// Deletes sheets of subjects who must not be shown any more; every preprocessing does.
-void remove_hidden_sheets(const preprocessing::Workspace& workspace);
-
 }  // namespace mimik::report

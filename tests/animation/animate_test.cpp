@@ -14,11 +14,13 @@
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "geometry/face_axes.h"
 #include "io/image.h"
 #include "io/mesh_io.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
 #include "tests/support/dense_spline.h"
+#include "tests/support/expressions.h"
 #include "tests/support/glb_faults.h"
 
 namespace mimik::animation {
@@ -42,8 +44,8 @@ protected:
         delete average_;
     }
     static ExpressionModel smile(const modeling::ModelOptions& options = {}, const std::string& code = "12") {
-        return modeling::measure_expression(facs::builtin_catalogue(), code, *average_, source_->neutral,
-                                            source_->smiling, options);
+        return modeling::measure_expression(facs::builtin_catalogue(), test::expression(code), *average_,
+                                            source_->neutral, source_->smiling, options);
     }
     /// Mean distance of the animated lower face to the true smile, in the head frame of the closed form.
     static double smile_error_mm(const AnimatedFace& animated, const preprocessing::Face& neutral, double scale,
@@ -53,11 +55,12 @@ protected:
             preprocessing::rigid_by_landmarks(test::AnalyticFace{scale}.landmarks(), neutral.landmarks);
         double sum = 0;
         int count = 0;
-        for (std::size_t v = 0; v < animated.grid.size(); ++v) {
-            if (!animated.grid.measured(v)) continue;
+        for (std::size_t v = 0; v < neutral.grid.size(); ++v) {
+            if (!neutral.grid.measured(v)) continue;
+            const Point moved = neutral.grid.vertices_mm[v] + animated.field.mm[v];
             const Point rest = scan_from_head.inverse() * neutral.grid.vertices_mm[v] / scale;
             if (std::abs(std::abs(rest.x()) - 25) > 15 || std::abs(rest.y() + 31.5) > 15) continue;
-            sum += (scan_from_head.inverse() * animated.grid.vertices_mm[v] - truth.point(rest.x(), rest.y())).norm();
+            sum += (scan_from_head.inverse() * moved - truth.point(rest.x(), rest.y())).norm();
             ++count;
         }
         return sum / count;
@@ -74,7 +77,7 @@ test::AnalyticSubject* Animate::target_ = nullptr;
 
 TEST_F(Animate, at_magnitude_zero_is_the_neutral_face) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     const WeightedExpression nothing{&model, 0.0};
     const auto animated = animate(target, std::span(&nothing, 1));
     EXPECT_EQ(animated.extent.largest_displacement_mm, 0);
@@ -82,11 +85,11 @@ TEST_F(Animate, at_magnitude_zero_is_the_neutral_face) {
 
 TEST_F(Animate, moves_a_face_of_other_size_most_of_the_way_to_its_own_smile) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
-    AnimatedFace still = animated;
-    still.grid = target_->neutral.grid;
+    AnimatedFace still;
+    still.field = geometry::DisplacementField::still(target_->neutral.grid.size());
     const double nothing_mm = smile_error_mm(still, target_->neutral, 1.1, 6.0);
     const double animated_mm = smile_error_mm(animated, target_->neutral, 1.1, 6.0);
     EXPECT_GT(nothing_mm, 2.0);
@@ -97,19 +100,19 @@ TEST_F(Animate, moves_a_face_of_other_size_most_of_the_way_to_its_own_smile) {
 
 TEST_F(Animate, lower_face_units_leave_the_brows_alone) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     const double brow_y = target_->neutral.landmarks.position_mm("brow_middle_left").y();
-    for (std::size_t v = 0; v < animated.grid.size(); ++v)
-        if (animated.grid.inside(v) && target_->neutral.grid.vertices_mm[v].y() > brow_y) {
-            ASSERT_EQ(animated.displacement_mm[v].norm(), 0) << v;
+    for (std::size_t v = 0; v < target_->neutral.grid.size(); ++v)
+        if (target_->neutral.grid.inside(v) && target_->neutral.grid.vertices_mm[v].y() > brow_y) {
+            ASSERT_EQ(animated.field.mm[v].norm(), 0) << v;
         }
 }
 
 TEST_F(Animate, one_side_of_a_unit_moves_that_side_only) {
     const auto model = smile({}, "12L");
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     const auto& grid = target_->neutral.grid;
@@ -118,8 +121,8 @@ TEST_F(Animate, one_side_of_a_unit_moves_that_side_only) {
     double at_left = 0, at_right = 0;
     for (std::size_t v = 0; v < grid.size(); ++v) {
         if (!grid.measured(v)) continue;
-        if ((grid.vertices_mm[v] - left).norm() < 3) at_left = std::max(at_left, animated.displacement_mm[v].norm());
-        if ((grid.vertices_mm[v] - right).norm() < 3) at_right = std::max(at_right, animated.displacement_mm[v].norm());
+        if ((grid.vertices_mm[v] - left).norm() < 3) at_left = std::max(at_left, animated.field.mm[v].norm());
+        if ((grid.vertices_mm[v] - right).norm() < 3) at_right = std::max(at_right, animated.field.mm[v].norm());
     }
     EXPECT_GT(at_left, 3.0);
     EXPECT_LT(at_right, 0.1 * at_left);
@@ -127,7 +130,7 @@ TEST_F(Animate, one_side_of_a_unit_moves_that_side_only) {
 
 TEST_F(Animate, the_same_unit_twice_doubles_as_a_sum_and_does_not_in_parallel) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     const WeightedExpression once{&model, 1.0};
     const std::array twice = {once, once};
     const auto single = animate(target, std::span(&once, 1));
@@ -141,9 +144,14 @@ TEST_F(Animate, the_same_unit_twice_doubles_as_a_sum_and_does_not_in_parallel) {
 
 TEST_F(Animate, beyond_magnitude_one_a_remark_says_so) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     const WeightedExpression strong{&model, 1.5};
     EXPECT_THAT(animate(target, std::span(&strong, 1)).remarks, testing::Contains(HasSubstr("exaggerates")));
+}
+
+/// The similarity that brings a target to the average face.
+const geometry::Transform& to_average(const PreparedTarget& target) {
+    return target.average_from_target(modeling::Normalisation::similarity);
 }
 
 /// Nothing was measured between the lips in so much of the mouth's width.
@@ -163,7 +171,7 @@ preprocessing::Face with_gap(preprocessing::Face face, double share) {
 TEST_F(Animate, who_opens_a_closed_mouth_is_told_that_it_stays_one_piece) {
     // As AU 27 does: all below the seam of the lips goes down, all above it stays.
     auto opening = smile();
-    opening.expression = "AU27";
+    opening.expression = test::expression("27");
     const double seam_y =
         (opening.landmarks.position_mm("upper_lip_inner").y() + opening.landmarks.position_mm("lower_lip_inner").y()) /
         2;
@@ -175,7 +183,7 @@ TEST_F(Animate, who_opens_a_closed_mouth_is_told_that_it_stays_one_piece) {
     EXPECT_LT(lip_parting_mm(smile()), 0.5);  // both lips go with the corners
 
     const auto told = [](const ExpressionModel& model, double magnitude, const preprocessing::Face& neutral) {
-        const TargetFace target(neutral, modeling::Normalisation::similarity);
+        const PreparedTarget target(neutral);
         const WeightedExpression weighted{&model, magnitude};
         std::size_t remarks = 0;
         for (const auto& remark : animate(target, std::span(&weighted, 1)).remarks)
@@ -184,42 +192,77 @@ TEST_F(Animate, who_opens_a_closed_mouth_is_told_that_it_stays_one_piece) {
         return remarks;
     };
     const auto &closed = target_->neutral, open = with_gap(closed, 0.6);
-    EXPECT_TRUE(lips_closed(closed));
-    EXPECT_TRUE(lips_closed(with_gap(closed, 0.2)));  // 0.2 of the 0.5 that are looked at: less than half
-    EXPECT_FALSE(lips_closed(with_gap(closed, 0.3)));
-    EXPECT_FALSE(lips_closed(open));
+    const auto closed_lips = [](const preprocessing::Face& face) {
+        return lips_closed(geometry::face_surface(face.grid, face.landmarks));
+    };
+    EXPECT_EQ(closed_lips(closed), true);
+    EXPECT_EQ(closed_lips(with_gap(closed, 0.2)), true);  // 0.2 of the 0.5 that are looked at: less than half
+    EXPECT_EQ(closed_lips(with_gap(closed, 0.3)), false);
+    EXPECT_EQ(closed_lips(open), false);
+    auto no_grid = geometry::face_surface(closed.grid, closed.landmarks);
+    no_grid.grid.reset();
+    EXPECT_EQ(lips_closed(no_grid), std::nullopt);
     EXPECT_EQ(told(opening, 1.0, closed), 1U);
     EXPECT_EQ(told(opening, 0.1, closed), 0U);  // a millimetre
     EXPECT_EQ(told(opening, 1.0, open), 0U);
     EXPECT_EQ(told(moved_as_one, 1.0, closed), 0U);
 }
 
-TEST_F(Animate, a_model_of_the_other_normalisation_is_refused) {
-    const auto model = smile(modeling::ModelOptions::thesis());
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+TEST_F(Animate, anybodys_mesh_moves_as_the_scan_of_the_same_surface_does_and_keeps_its_faces_and_texture) {
+    const auto model = smile();
+    const auto& neutral = target_->neutral;
+    const PreparedTarget target(neutral);
     const WeightedExpression weighted{&model, 1.0};
-    EXPECT_THROW((void)animate(target, std::span(&weighted, 1)), InputError);
+    const auto animated = animate(target, std::span(&weighted, 1));
+
+    std::vector<std::uint32_t> kept;
+    auto mesh = geometry::to_mesh(neutral.grid, geometry::BridgedVertices::keep, &kept);
+    mesh.texture_coordinates.assign(mesh.vertices_mm.size(), {0.25, 0.75});
+    const auto moved = animate_mesh(mesh, neutral.landmarks, *average_, std::span(&weighted, 1));
+    ASSERT_EQ(moved.vertices_mm.size(), mesh.vertices_mm.size());
+    EXPECT_EQ(moved.faces.corners, mesh.faces.corners);
+    EXPECT_EQ(moved.texture_coordinates, mesh.texture_coordinates);
+    double most_mm = 0;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+        most_mm = std::max(most_mm, (moved.vertices_mm[k] - mesh.vertices_mm[k] - animated.field.mm[kept[k]]).norm());
+    EXPECT_GT(animated.extent.largest_displacement_mm, 4);
+    EXPECT_LT(most_mm, 1e-6);  // rounding: the same splines on the same surface
+}
+
+TEST_F(Animate, a_landmark_without_a_partner_is_told_and_left_out) {
+    auto neutral = target_->neutral;
+    std::vector<geometry::Landmark> marks(neutral.landmarks.all().begin(), neutral.landmarks.all().end());
+    std::erase_if(marks, [](const auto& mark) { return mark.name == "brow_inner_left"; });
+    marks.push_back({"ear_lobe_left", marks.front().position_mm + Vector(40, 0, -60), ""});
+    neutral.landmarks = geometry::Landmarks(marks);
+    const auto model = smile();
+    const WeightedExpression weighted{&model, 1.0};
+    const auto animated = animate(PreparedTarget(neutral), std::span(&weighted, 1));
+    EXPECT_THAT(animated.remarks, testing::Contains(HasSubstr("landmark 'brow_inner_left' of the model is not on")));
+    EXPECT_THAT(animated.remarks, testing::Contains(HasSubstr("'ear_lobe_left' of bs000_N_N_0 is not in the model")));
 }
 
 TEST_F(Animate, the_thesis_warp_equals_a_direct_dense_solve_of_its_system) {
     const auto options = AnimationOptions::thesis();
     const auto model = smile(modeling::ModelOptions::thesis());
-    const TargetFace target(target_->neutral, modeling::Normalisation::affine, true);
+    const PreparedTarget target(target_->neutral);
     std::vector<CarriedPoint> points;
     const auto field = expression_field(target, model, options, &points);
+    const auto& normalised = target.normalised(modeling::Normalisation::affine);
+    const auto& to_affine = normalised.average_from_target;
 
     std::vector<Point> from, to;
     for (const auto& point : points) {
-        from.emplace_back(target.average_from_scan() * point.position_mm);
-        to.emplace_back(from.back() + target.average_from_scan().linear() * point.displacement_mm);
+        from.emplace_back(to_affine * point.position_mm);
+        to.emplace_back(from.back() + to_affine.linear() * point.displacement_mm);
     }
     const test::DenseSpline dense(from, to);
     double worst = 0;
     std::size_t compared = 0;
     for (std::size_t v = 0; v < field.size(); v += 17) {
-        if (field[v].norm() == 0) continue;
-        const Point& x = target.vertices_mm()[v];
-        worst = std::max(worst, (dense(x) - x - field[v]).norm());
+        if (field.mm[v].norm() == 0) continue;
+        const Point& x = normalised.vertices_mm[v];
+        worst = std::max(worst, (dense(x) - x - to_affine.linear() * field.mm[v]).norm());
         ++compared;
     }
     EXPECT_GT(compared, 100U);
@@ -243,7 +286,7 @@ TEST_F(Animate, exports_leave_out_what_is_no_measured_surface_and_keep_the_displ
     const auto cols = static_cast<std::uint32_t>(grid.cols);
     for (const auto v : {lone - 1, lone + 1, lone - cols, lone + cols})
         grid.origin[v] = geometry::VertexOrigin::bridged;
-    const TargetFace target(neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(neutral);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     const auto mesh = to_mesh(animated, target);
@@ -263,14 +306,14 @@ TEST_F(Animate, exports_leave_out_what_is_no_measured_surface_and_keep_the_displ
 
 TEST_F(Animate, lengths_are_those_of_the_frame_that_they_are_asked_in) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
     // A similarity: every length is its scale times that of the scanner's frame.
-    const Eigen::Matrix3d turn = target.average_from_scan().linear();
+    const Eigen::Matrix3d turn = to_average(target).linear();
     const double scale = std::cbrt(turn.determinant());
     ASSERT_GT(std::abs(scale - 1), 0.01);
-    const auto average = field_extent(animated.grid, animated.displacement_mm, turn);
+    const auto average = geometry::field_extent(target.surface(), animated.field.mm, turn);
     EXPECT_GT(animated.extent.largest_displacement_mm, 4);
     EXPECT_NEAR(average.largest_displacement_mm, scale * animated.extent.largest_displacement_mm, 1e-9);  // rounding
     EXPECT_NEAR(average.largest_neighbour_step_mm, scale * animated.extent.largest_neighbour_step_mm, 1e-9);
@@ -278,7 +321,7 @@ TEST_F(Animate, lengths_are_those_of_the_frame_that_they_are_asked_in) {
 
 TEST_F(Animate, what_is_too_large_for_a_number_is_refused_with_the_name_of_the_expression) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     const auto refused = [&](const ExpressionModel& one, double magnitude) {
         const WeightedExpression weighted{&one, magnitude};
         return database::message_of<NumericalError>([&] { (void)animate(target, std::span(&weighted, 1)); });
@@ -304,7 +347,7 @@ TEST_F(Animate, the_thesis_landmark_splines_equal_a_direct_dense_solve_too) {
             << point.name;  // as for the warp
     }
     // Eq. 5.7, model to target.
-    const TargetFace target(target_->neutral, modeling::Normalisation::affine, true);
+    const PreparedTarget target(target_->neutral);
     std::vector<CarriedPoint> carried;
     (void)expression_field(target, model, AnimationOptions::thesis(), &carried);
     ASSERT_EQ(carried.size(), model.points.size());
@@ -312,19 +355,20 @@ TEST_F(Animate, the_thesis_landmark_splines_equal_a_direct_dense_solve_too) {
         model.landmarks,
         geometry::transformed(target_->neutral.snapped_landmarks, target_->neutral.average_from_scan_affine));
     for (std::size_t k = 0; k < carried.size(); ++k) {
-        const Point on_face = target.average_from_scan() * carried[k].position_mm;
+        const Point on_face = target.average_from_target(modeling::Normalisation::affine) * carried[k].position_mm;
         EXPECT_NEAR((on_face - target_from_model(model.points[k].position_mm)).norm(), carried[k].projection_mm, 1e-9)
             << carried[k].name;
     }
 }
 
 TEST_F(Animate, in_the_thesis_way_landmarks_and_carried_points_are_vertices) {
-    const TargetFace target(target_->neutral, modeling::Normalisation::affine, true);
+    const PreparedTarget target(target_->neutral);
+    const auto& normalised = target.normalised(modeling::Normalisation::affine);
     for (const auto& mark : target_->neutral.snapped_landmarks.all())
-        EXPECT_EQ(target.landmarks().position_mm(mark.name), target.average_from_scan() * mark.position_mm);
-    const TargetFace free(target_->neutral, modeling::Normalisation::affine, false);
-    EXPECT_EQ(free.landmarks().position_mm("chin"),
-              free.average_from_scan() * target_->neutral.landmarks.position_mm("chin"));
+        EXPECT_EQ(normalised.snapped_landmarks.position_mm(mark.name),
+                  normalised.average_from_target * mark.position_mm);
+    EXPECT_EQ(normalised.landmarks.position_mm("chin"),
+              normalised.average_from_target * target_->neutral.landmarks.position_mm("chin"));
 
     std::vector<CarriedPoint> points;
     (void)expression_field(target, smile(modeling::ModelOptions::thesis()), AnimationOptions::thesis(), &points);
@@ -340,8 +384,9 @@ TEST_F(Animate, in_the_thesis_way_landmarks_and_carried_points_are_vertices) {
 
 TEST_F(Animate, lower_face_units_alone_scale_with_the_width_of_the_mouth) {
     auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
-    model.mouth_width_mm = target.mouth_width_mm() / 1.3;
+    const PreparedTarget target(target_->neutral);
+    model.mouth_width_mm =
+        geometry::mouth_width_mm(target.normalised(modeling::Normalisation::similarity).landmarks) / 1.3;
     const auto ratio_is = [&](double expected) {
         std::vector<CarriedPoint> points;
         (void)expression_field(target, model, {}, &points);
@@ -349,7 +394,7 @@ TEST_F(Animate, lower_face_units_alone_scale_with_the_width_of_the_mouth) {
         for (const auto& point : points)
             for (const auto& own : model.points)
                 if (own.name == point.name && own.kind == facs::ControlKind::muscle) {
-                    const Vector moved = target.average_from_scan().linear() * point.displacement_mm;
+                    const Vector moved = to_average(target).linear() * point.displacement_mm;
                     EXPECT_LT((moved - expected * own.displacement_mm).norm(), 1e-9) << point.name;  // rounding
                     ++compared;
                 }
@@ -364,7 +409,7 @@ TEST_F(Animate, a_unit_fades_over_the_border_of_its_region) {
     auto model = smile();
     // Something to see at the border: the same large push everywhere.
     for (auto& point : model.points) point.displacement_mm = {0, 3, 1};
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     AnimationOptions options;
     options.mouth_ratio = false;
     const auto faded = expression_field(target, model, options);
@@ -380,9 +425,9 @@ TEST_F(Animate, a_unit_fades_over_the_border_of_its_region) {
     int below = 0, above = 0;
     const auto& grid = target_->neutral.grid;
     for (std::size_t v = 0; v < grid.size(); ++v) {
-        if (!grid.measured(v) || whole[v].norm() < 1) continue;
+        if (!grid.measured(v) || whole.mm[v].norm() < 1) continue;
         const double height_mm = grid.vertices_mm[v].y() - border;
-        const double share = faded[v].norm() / whole[v].norm();
+        const double share = faded.mm[v].norm() / whole.mm[v].norm();
         if (std::abs(height_mm + 3) < 1) at_3_mm_below += share, ++below;
         if (std::abs(height_mm - 3) < 1) at_3_mm_above += share, ++above;
     }
@@ -395,13 +440,13 @@ TEST_F(Animate, a_unit_fades_over_the_border_of_its_region) {
 
 TEST_F(Animate, a_vertex_keeps_as_much_of_its_displacement_as_it_is_given) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     const auto whole = expression_field(target, model, {});
     AnimationOptions options;
     options.keep.assign(whole.size(), 0.25);
     const auto held = expression_field(target, model, options);
     for (std::size_t v = 0; v < whole.size(); ++v)
-        ASSERT_LT((held[v] - 0.25 * whole[v]).norm(), 1e-12) << v;  // rounding
+        ASSERT_LT((held.mm[v] - 0.25 * whole.mm[v]).norm(), 1e-12) << v;  // rounding
     options.keep.pop_back();
     EXPECT_THROW((void)expression_field(target, model, options), InputError);
 }
@@ -419,7 +464,7 @@ TEST_F(Animate, points_are_merged_where_they_fall_together_and_only_there) {
     for (const auto& anchor : model.points)
         if (anchor.kind == facs::ControlKind::anchor) points.push_back(anchor);
     model.points = points;
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     std::vector<CarriedPoint> carried;
     std::vector<std::string> remarks;
     (void)expression_field(target, model, {}, &carried, &remarks);
@@ -432,21 +477,25 @@ TEST_F(Animate, points_are_merged_where_they_fall_together_and_only_there) {
 
 TEST_F(Animate, in_the_average_frame_positions_and_displacements_turn_alike) {
     const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(target_->neutral);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
-    const auto mesh = to_mesh(animated, target, {.frame = OutputFrame::average});
+    const auto mesh = to_mesh(animated, target_->neutral, {.average_from_scan = to_average(target)});
     const auto& moved = mesh.attributes.front();
     ASSERT_EQ(moved.name, "displacement_mm");
     std::size_t k = 0;
     std::set<std::uint32_t> in_quads;
-    for (const auto v : geometry::quads(animated.grid, geometry::BridgedVertices::leave_out).corners)
+    for (const auto v : geometry::quads(target_->neutral.grid, geometry::BridgedVertices::leave_out).corners)
         in_quads.insert(v);
     for (const auto v : in_quads) {
-        const Vector turned = target.average_from_scan().linear() * animated.displacement_mm[v];
+        const Vector turned = to_average(target).linear() * animated.field.mm[v];
         const Vector written(moved.values[3 * k], moved.values[3 * k + 1], moved.values[3 * k + 2]);
         ASSERT_LT((written - turned).norm(), 1e-9) << v;  // rounding
-        ASSERT_LT((mesh.vertices_mm[k] - target.average_from_scan() * animated.grid.vertices_mm[v]).norm(), 1e-9) << v;
+        ASSERT_LT(
+            (mesh.vertices_mm[k] - to_average(target) * (target_->neutral.grid.vertices_mm[v] + animated.field.mm[v]))
+                .norm(),
+            1e-9)
+            << v;
         ++k;
     }
     EXPECT_EQ(k, mesh.vertices_mm.size());
@@ -487,142 +536,170 @@ TEST_F(Animate, every_format_says_of_each_vertex_how_it_moved_and_what_was_measu
     for (std::size_t v = 0; v < grid.size(); ++v)
         if (grid.measured(v) && (grid.vertices_mm[v] - mouth).norm() < 5)
             grid.origin[v] = geometry::VertexOrigin::bridged;
-    const TargetFace target(neutral, modeling::Normalisation::similarity);
+    const PreparedTarget target(neutral);
     const WeightedExpression weighted{&model, 0.5};
     const auto animated = animate(target, std::span(&weighted, 1));
     const std::vector<NamedMagnitude> names = {{"AU12", 0.5, "mouthSmile"}};
     const database::TemporaryFolder folder;
     for (const auto bridged : {geometry::BridgedVertices::keep, geometry::BridgedVertices::leave_out}) {
-        const ExportOptions options{.frame = OutputFrame::average, .bridged = bridged};
-        const auto mesh = to_mesh(animated, target, options);
-        const auto& moved = mesh.attributes.at(0).values;
-        const auto& origin = mesh.attributes.at(1).values;
-        ASSERT_EQ(mesh.attributes[1].name, "origin");
-        ASSERT_EQ(std::count(origin.begin(), origin.end(), 2.0) > 0, bridged == geometry::BridgedVertices::keep);
-
-        const auto obj = folder.path() / "face.obj", table = folder.path() / "face_vertices.csv";
-        EXPECT_EQ(vertex_values_file(obj), table);
-        EXPECT_THAT(write_animated_face(obj, animated, target, names, {}, options),
-                    testing::ElementsAre(HasSubstr(table.string())));
-        const auto text = base::read_text(table);
-        base::CsvReader rows(text, table.string());
-        EXPECT_EQ(io::read_mesh(obj).vertices_mm.size(), mesh.vertices_mm.size());
-        const std::array columns = {rows.column("displacement_mm_x"), rows.column("displacement_mm_y"),
-                                    rows.column("displacement_mm_z")};
-        for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
-            ASSERT_TRUE(rows.next()) << v;
-            ASSERT_EQ(rows.number(rows.column("vertex")), static_cast<double>(v + 1));
-            ASSERT_EQ(rows.number(rows.column("origin")), origin[v]);
-            for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(rows.number(columns[c]), moved[3 * v + c]);
+        double largest_mm(std::size_t morph) const {
+            const auto values =
+                floats(json["meshes"][0]["primitives"][0]["targets"][morph]["POSITION"].get<std::size_t>());
+            double largest = 0;
+            for (std::size_t k = 0; k + 2 < values.size(); k += 3)
+                largest = std::max(largest, 1000.0 * std::hypot(values[k], values[k + 1], values[k + 2]));
+            return largest;
         }
-        EXPECT_FALSE(rows.next());
+        std::vector<std::uint8_t> bytes;
+        std::size_t binary = 0;
+        nlohmann::json json;
+    };
 
-        EXPECT_TRUE(write_animated_face(folder.path() / "face.glb", animated, target, names, {}, options).empty());
-        const ReadGlb glb(folder.path() / "face.glb");
+    TEST_F(Animate, every_format_says_of_each_vertex_how_it_moved_and_what_was_measured) {
+        const auto model = smile();
+        auto neutral = target_->neutral;
+        auto& grid = neutral.grid;
+        const Point mouth = neutral.landmarks.position_mm("mouth_corner_left");
+        for (std::size_t v = 0; v < grid.size(); ++v)
+            if (grid.measured(v) && (grid.vertices_mm[v] - mouth).norm() < 5)
+                grid.origin[v] = geometry::VertexOrigin::bridged;
+        const PreparedTarget target(neutral);
+        const WeightedExpression weighted{&model, 0.5};
+        const auto animated = animate(target, std::span(&weighted, 1));
+        const std::vector<NamedMagnitude> names = {{"AU12", 0.5, "mouthSmile"}};
+        const database::TemporaryFolder folder;
+        for (const auto bridged : {geometry::BridgedVertices::keep, geometry::BridgedVertices::leave_out}) {
+            const ExportOptions options{.average_from_scan = to_average(target), .bridged = bridged};
+            const auto mesh = to_mesh(animated, neutral, options);
+            const auto& moved = mesh.attributes.at(0).values;
+            const auto& origin = mesh.attributes.at(1).values;
+            ASSERT_EQ(mesh.attributes[1].name, "origin");
+            ASSERT_EQ(std::count(origin.begin(), origin.end(), 2.0) > 0, bridged == geometry::BridgedVertices::keep);
+
+            const auto obj = folder.path() / "face.obj", table = folder.path() / "face_vertices.csv";
+            EXPECT_EQ(vertex_values_file(obj), table);
+            EXPECT_THAT(write_animated_face(obj, animated, target, names, {}, options),
+                        testing::ElementsAre(HasSubstr(table.string())));
+            const auto text = base::read_text(table);
+            base::CsvReader rows(text, table.string());
+            EXPECT_EQ(io::read_mesh(obj).vertices_mm.size(), mesh.vertices_mm.size());
+            const std::array columns = {rows.column("displacement_mm_x"), rows.column("displacement_mm_y"),
+                                        rows.column("displacement_mm_z")};
+            for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+                ASSERT_TRUE(rows.next()) << v;
+                ASSERT_EQ(rows.number(rows.column("vertex")), static_cast<double>(v + 1));
+                ASSERT_EQ(rows.number(rows.column("origin")), origin[v]);
+                for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(rows.number(columns[c]), moved[3 * v + c]);
+            }
+            EXPECT_FALSE(rows.next());
+
+            EXPECT_TRUE(write_animated_face(folder.path() / "face.glb", animated, target, names, {}, options).empty());
+            const ReadGlb glb(folder.path() / "face.glb");
+            EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
+            const auto& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
+            const auto origins = glb.floats(attributes["_ORIGIN"].get<std::size_t>());
+            const auto displacements = glb.floats(attributes["_DISPLACEMENT_MM"].get<std::size_t>());
+            EXPECT_EQ(origins, std::vector<float>(origin.begin(), origin.end()));
+            EXPECT_EQ(displacements, std::vector<float>(moved.begin(), moved.end()));
+        }
+        for (const char* file : {"face.ply", "face.vtp", "face.glb"}) EXPECT_TRUE(vertex_values_file(file).empty());
+    }
+
+    double largest_mm(const preprocessing::Face& neutral, const std::vector<Vector>& field) {
+        double largest = 0;
+        for (std::size_t v = 0; v < field.size(); ++v)
+            if (neutral.grid.measured(v)) largest = std::max(largest, field[v].norm());
+        return largest;
+    }
+
+    TEST_F(Animate, morph_targets_hold_the_fields_at_magnitude_one_with_the_name_that_arkit_has) {
+        const database::TemporaryFolder folder;
+        const auto file = folder.path() / "face.glb";
+        const auto left = smile({}, "12L"), both = smile();
+        const PreparedTarget target(target_->neutral);
+        const std::array expressions = {WeightedExpression{&left, 0.5}, WeightedExpression{&both, 0.25}};
+        const auto animated = animate(target, expressions);
+        std::vector<NamedMagnitude> names = {{"AU12_L", 0.5, "mouthSmileLeft"}, {"AU12", 0.25, ""}};
+        EXPECT_TRUE(write_animated_face(file, animated, target_->neutral, names, {}).empty());
+        const ReadGlb glb(file);
         EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
-        const auto& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
-        const auto origins = glb.floats(attributes["_ORIGIN"].get<std::size_t>());
-        const auto displacements = glb.floats(attributes["_DISPLACEMENT_MM"].get<std::size_t>());
-        EXPECT_EQ(origins, std::vector<float>(origin.begin(), origin.end()));
-        EXPECT_EQ(displacements, std::vector<float>(moved.begin(), moved.end()));
+        const auto& mesh = glb.json["meshes"][0];
+        EXPECT_EQ(mesh["extras"]["targetNames"], nlohmann::json({"AU12_L", "AU12"}));
+        EXPECT_EQ(mesh["extras"]["arkitNames"], nlohmann::json({"mouthSmileLeft", ""}));
+        EXPECT_EQ(mesh["weights"], nlohmann::json({0.5, 0.25}));
+        for (std::size_t k = 0; k < 2; ++k)
+            EXPECT_NEAR(glb.largest_mm(k), largest_mm(target_->neutral, animated.shapes[k].mm), 1e-5);  // 32-bit floats
+        // Not turned round either: the left corner of the mouth goes to the subject's left.
+        const auto values = glb.floats(mesh["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>());
+        double sum_x = 0, sum_field_x = 0;
+        for (std::size_t k = 0; k < values.size(); k += 3) sum_x += 1000.0 * static_cast<double>(values[k]);
+        for (std::size_t v = 0; v < target_->neutral.grid.size(); ++v)
+            if (target_->neutral.grid.measured(v)) sum_field_x += animated.shapes[0].mm[v].x();
+        EXPECT_GT(sum_x * sum_field_x, 0);
+        names[1].name = "AU12_L";
+        EXPECT_THAT(database::message_of<InputError>(
+                        [&] { (void)write_animated_face(file, animated, target_->neutral, names, {}); }),
+                    HasSubstr("two morph targets would be called AU12_L"));
     }
-    for (const char* file : {"face.ply", "face.vtp", "face.glb"}) EXPECT_TRUE(vertex_values_file(file).empty());
-}
 
-double largest_mm(const AnimatedFace& face, const std::vector<Vector>& field) {
-    double largest = 0;
-    for (std::size_t v = 0; v < field.size(); ++v)
-        if (face.grid.measured(v)) largest = std::max(largest, field[v].norm());
-    return largest;
-}
-
-TEST_F(Animate, morph_targets_hold_the_fields_at_magnitude_one_with_the_name_that_arkit_has) {
-    const database::TemporaryFolder folder;
-    const auto file = folder.path() / "face.glb";
-    const auto left = smile({}, "12L"), both = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
-    const std::array expressions = {WeightedExpression{&left, 0.5}, WeightedExpression{&both, 0.25}};
-    const auto animated = animate(target, expressions);
-    std::vector<NamedMagnitude> names = {{"AU12_L", 0.5, "mouthSmileLeft"}, {"AU12", 0.25, ""}};
-    EXPECT_TRUE(write_animated_face(file, animated, target, names, {}).empty());
-    const ReadGlb glb(file);
-    EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
-    const auto& mesh = glb.json["meshes"][0];
-    EXPECT_EQ(mesh["extras"]["targetNames"], nlohmann::json({"AU12_L", "AU12"}));
-    EXPECT_EQ(mesh["extras"]["arkitNames"], nlohmann::json({"mouthSmileLeft", ""}));
-    EXPECT_EQ(mesh["weights"], nlohmann::json({0.5, 0.25}));
-    for (std::size_t k = 0; k < 2; ++k)
-        EXPECT_NEAR(glb.largest_mm(k), largest_mm(animated, animated.fields_mm[k]), 1e-5);  // 32-bit floats
-    // Not turned round either: the left corner of the mouth goes to the subject's left.
-    const auto values = glb.floats(mesh["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>());
-    double sum_x = 0, sum_field_x = 0;
-    for (std::size_t k = 0; k < values.size(); k += 3) sum_x += 1000.0 * static_cast<double>(values[k]);
-    for (std::size_t v = 0; v < animated.grid.size(); ++v)
-        if (animated.grid.measured(v)) sum_field_x += animated.fields_mm[0][v].x();
-    EXPECT_GT(sum_x * sum_field_x, 0);
-    names[1].name = "AU12_L";
-    EXPECT_THAT(database::message_of<InputError>([&] { (void)write_animated_face(file, animated, target, names, {}); }),
-                HasSubstr("two morph targets would be called AU12_L"));
-}
-
-TEST_F(Animate, a_parallel_resultant_is_one_morph_target_and_a_remark_says_so) {
-    const database::TemporaryFolder folder;
-    const auto file = folder.path() / "face.glb";
-    const auto left = smile({}, "12L"), both = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
-    const std::array expressions = {WeightedExpression{&left, 1.0}, WeightedExpression{&both, 1.0}};
-    AnimationOptions options;
-    options.combination = Combination::parallel;
-    const auto animated = animate(target, expressions, options);
-    const std::vector<NamedMagnitude> names = {{"AU12_L", 1.0, "mouthSmileLeft"}, {"AU12", 1.0, ""}};
-    EXPECT_THAT(write_animated_face(file, animated, target, names, {}),
-                testing::ElementsAre(HasSubstr("one, AU12_L+AU12")));
-    const ReadGlb glb(file);
-    EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
-    EXPECT_EQ(glb.json["meshes"][0]["extras"]["targetNames"], nlohmann::json({"AU12_L+AU12"}));
-    EXPECT_EQ(glb.json["meshes"][0]["weights"], nlohmann::json({1.0}));
-    EXPECT_NEAR(glb.largest_mm(0), largest_mm(animated, animated.displacement_mm), 1e-5);  // 32-bit floats
-}
-
-TEST_F(Animate, a_picture_beside_the_face_is_not_overwritten_by_its_texture) {
-    const database::TemporaryFolder folder;
-    base::write_atomically(folder.path() / "face.png", "picture");
-    io::write_png(folder.path() / "scan.png", {1, 1, {10, 20, 30}});
-    const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
-    const WeightedExpression weighted{&model, 1.0};
-    const auto animated = animate(target, std::span(&weighted, 1));
-    write_animated_face(folder.path() / "face.ply", animated, target, {}, folder.path() / "scan.png");
-    EXPECT_EQ(base::read_text(folder.path() / "face.png"), "picture");
-    EXPECT_EQ(base::read_text(folder.path() / "face_texture.png"), base::read_text(folder.path() / "scan.png"));
-    EXPECT_THAT(base::read_text(folder.path() / "face.ply").substr(0, 400), HasSubstr("face_texture.png"));
-}
-
-TEST_F(Animate, a_texture_that_is_no_picture_is_not_handed_on) {
-    const database::TemporaryFolder folder;
-    base::write_atomically(folder.path() / "key.png", "a text that is nobody's business");
-    const auto model = smile();
-    const TargetFace target(target_->neutral, modeling::Normalisation::similarity);
-    const WeightedExpression weighted{&model, 1.0};
-    const auto animated = animate(target, std::span(&weighted, 1));
-    const std::vector<NamedMagnitude> names = {{"AU12", 1.0, ""}};
-    for (const char* file : {"face.ply", "face.glb"}) {
-        EXPECT_THAT(database::message_of<InputError>([&] {
-                        (void)write_animated_face(folder.path() / file, animated, target, names,
-                                                  folder.path() / "key.png");
-                    }),
-                    HasSubstr("key.png: is neither a PNG nor a JPEG image"));
-        EXPECT_FALSE(std::filesystem::exists(folder.path() / file));
+    TEST_F(Animate, a_parallel_resultant_is_one_morph_target_and_a_remark_says_so) {
+        const database::TemporaryFolder folder;
+        const auto file = folder.path() / "face.glb";
+        const auto left = smile({}, "12L"), both = smile();
+        const PreparedTarget target(target_->neutral);
+        const std::array expressions = {WeightedExpression{&left, 1.0}, WeightedExpression{&both, 1.0}};
+        AnimationOptions options;
+        options.combination = Combination::parallel;
+        const auto animated = animate(target, expressions, options);
+        const std::vector<NamedMagnitude> names = {{"AU12_L", 1.0, "mouthSmileLeft"}, {"AU12", 1.0, ""}};
+        EXPECT_THAT(write_animated_face(file, animated, target_->neutral, names, {}),
+                    testing::ElementsAre(HasSubstr("one, AU12_L+AU12")));
+        const ReadGlb glb(file);
+        EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
+        EXPECT_EQ(glb.json["meshes"][0]["extras"]["targetNames"], nlohmann::json({"AU12_L+AU12"}));
+        EXPECT_EQ(glb.json["meshes"][0]["weights"], nlohmann::json({1.0}));
+        EXPECT_NEAR(glb.largest_mm(0), largest_mm(target_->neutral, animated.field.mm), 1e-5);  // 32-bit floats
     }
-}
 
-TEST(AnimationOptions, defaults_and_the_thesis_are_valid_and_negative_smoothing_is_not) {
-    EXPECT_NO_THROW(AnimationOptions{}.check());
-    EXPECT_NO_THROW(AnimationOptions::thesis().check());
-    AnimationOptions options;
-    options.smoothing = -1;
-    EXPECT_THROW(options.check(), InputError);
-}
+    TEST_F(Animate, a_picture_beside_the_face_is_not_overwritten_by_its_texture) {
+        const database::TemporaryFolder folder;
+        base::write_atomically(folder.path() / "face.png", "picture");
+        io::write_png(folder.path() / "scan.png", {1, 1, {10, 20, 30}});
+        const auto model = smile();
+        const PreparedTarget target(target_->neutral);
+        const WeightedExpression weighted{&model, 1.0};
+        const auto animated = animate(target, std::span(&weighted, 1));
+        write_animated_face(folder.path() / "face.ply", animated, target_->neutral, {}, folder.path() / "scan.png");
+        EXPECT_EQ(base::read_text(folder.path() / "face.png"), "picture");
+        EXPECT_EQ(base::read_text(folder.path() / "face_texture.png"), base::read_text(folder.path() / "scan.png"));
+        EXPECT_THAT(base::read_text(folder.path() / "face.ply").substr(0, 400), HasSubstr("face_texture.png"));
+    }
+
+    TEST_F(Animate, a_texture_that_is_no_picture_is_not_handed_on) {
+        const database::TemporaryFolder folder;
+        base::write_atomically(folder.path() / "key.png", "a text that is nobody's business");
+        const auto model = smile();
+        const PreparedTarget target(target_->neutral);
+        const WeightedExpression weighted{&model, 1.0};
+        const auto animated = animate(target, std::span(&weighted, 1));
+        const std::vector<NamedMagnitude> names = {{"AU12", 1.0, ""}};
+        for (const char* file : {"face.ply", "face.glb"}) {
+            EXPECT_THAT(database::message_of<InputError>([&] {
+                            (void)write_animated_face(folder.path() / file, animated, target_->neutral, names,
+                                                      folder.path() / "key.png");
+                        }),
+                        HasSubstr("key.png: is neither a PNG nor a JPEG image"));
+            EXPECT_FALSE(std::filesystem::exists(folder.path() / file));
+        }
+    }
+
+    TEST(AnimationOptions, defaults_and_the_thesis_are_valid_and_negative_smoothing_is_not) {
+        EXPECT_NO_THROW(AnimationOptions{}.check());
+        EXPECT_NO_THROW(AnimationOptions::thesis().check());
+        AnimationOptions options;
+        options.smoothing = -1;
+        EXPECT_THROW(options.check(), InputError);
+    }
 
 }  // namespace
 }  // namespace mimik::animation

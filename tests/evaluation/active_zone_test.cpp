@@ -5,6 +5,7 @@
 #include "base/errors.h"
 #include "tests/support/analytic_truth.h"
 #include "tests/support/analytic_workspace.h"
+#include "tests/support/expressions.h"
 
 namespace mimik::evaluation {
 namespace {
@@ -32,7 +33,7 @@ protected:
     static ActiveZone zone(double share = 0.2) {
         TrueZone sum(*average_);
         sum.add(motion());
-        return sum.zone("12", share);
+        return sum.zone(test::expression("12"), share);
     }
     /// Length of the smile's shift at a point of the unit face.
     static double shift_mm(const Point& head) {
@@ -102,7 +103,7 @@ TEST_F(ActiveZoneTest, a_smaller_share_is_a_larger_zone_and_no_subject_is_refuse
         return std::count(found.active.begin(), found.active.end(), 1);
     };
     EXPECT_GT(count(0.1), count(0.2));
-    EXPECT_THROW((void)TrueZone(*average_).zone("12"), InputError);
+    EXPECT_THROW((void)TrueZone(*average_).zone(test::expression("12")), InputError);
 }
 
 TEST_F(ActiveZoneTest, of_several_subjects_is_that_of_their_mean) {
@@ -116,14 +117,14 @@ TEST_F(ActiveZoneTest, of_several_subjects_is_that_of_their_mean) {
     sum.add(one);
     sum.add(twice);
     sum.add(opposite);
-    const auto alone = zone(), mean = sum.zone("12");  // (1 + 2 - 1) / 3
+    const auto alone = zone(), mean = sum.zone(test::expression("12"));  // (1 + 2 - 1) / 3
     for (std::size_t v = 0; v < one.size(); ++v)
         // Rounding of a few mm.
         EXPECT_NEAR(mean.displacement_mm[v], 2.0 / 3.0 * alone.displacement_mm[v], 1e-12);
 }
 
 TEST_F(ActiveZoneTest, of_the_catalogue_holds_the_mouth_corners_and_not_the_brows) {
-    const auto drawn = active_zone_from_catalogue("12", *average_, facs::builtin_catalogue());
+    const auto drawn = active_zone_from_catalogue(test::expression("12"), *average_, facs::builtin_catalogue());
     const auto at = [&](const char* name) {
         std::size_t nearest = 0;
         double best = 1e9;

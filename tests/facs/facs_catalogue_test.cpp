@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
-#include "tests/database/temporary_folder.h"
+#include "tests/support/thrown.h"
 
 namespace mimik::facs {
 namespace {
@@ -17,6 +17,13 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+
+std::vector<SidedUnit> units_of(const std::string& text) {
+    return builtin_catalogue().units(builtin_catalogue().expression(text));
+}
+std::string arkit_name_of(const std::string& text) {
+    return arkit_name(builtin_catalogue(), builtin_catalogue().expression(text));
+}
 
 /// A whole catalogue whose line 12 is `point`.
 std::string catalogue_with(const std::string& point) {
@@ -68,15 +75,15 @@ TEST(BuiltinCatalogue, knows_the_muscles_that_the_thesis_names) {
 
 TEST(BuiltinCatalogue, resolves_the_six_emotions_to_their_units) {
     for (const auto* name : {"HAPPY", "SADNESS", "SURPRISE", "FEAR", "ANGER", "DISGUST"})
-        EXPECT_GE(builtin_catalogue().resolve(name).size(), 2U) << name;
-    const auto happy = builtin_catalogue().resolve("happy");
+        EXPECT_GE(units_of(name).size(), 2U) << name;
+    const auto happy = units_of("happy");
     ASSERT_EQ(happy.size(), 2U);
     EXPECT_EQ(happy[0].unit->number, 6);
     EXPECT_EQ(happy[1].unit->number, 12);
 }
 
 TEST(FacsCatalogue, splits_a_code_into_units_and_sides) {
-    const auto units = builtin_catalogue().resolve("A12LA15");
+    const auto units = units_of("A12LA15");
     ASSERT_EQ(units.size(), 2U);
     EXPECT_EQ(units[0].side, facs::Side::left);
     EXPECT_EQ(units[1].unit->number, 15);
@@ -94,29 +101,30 @@ TEST(FacsCatalogue, reads_every_way_in_which_mimik_spells_an_expression_as_one) 
         {"HAPPY", {"HAPPY", "happy", "E_HAPPY", "joy"}}};
     for (const auto& [code, words] : spellings)
         for (const auto& word : words) {
-            EXPECT_EQ(builtin_catalogue().code(word), code) << word;
+            const auto expression = builtin_catalogue().expression(word);
+            EXPECT_EQ(expression.code(), code) << word;
             // What a model, a morph target and a picture are called can be typed back.
-            EXPECT_EQ(builtin_catalogue().code(expression_name(builtin_catalogue(), word)), code) << word;
+            EXPECT_EQ(builtin_catalogue().expression(expression.name()), expression) << word;
         }
 }
 
 TEST(FacsCatalogue, names_low_intensity_apart_from_the_full_motion) {
-    EXPECT_EQ(expression_name(builtin_catalogue(), "12LW"), "AU12_LW");
-    EXPECT_EQ(expression_name(builtin_catalogue(), "A12LWA15L"), "AU12_LW+AU15_L");
-    EXPECT_EQ(arkit_name(builtin_catalogue(), "17"), "mouthShrugLower");
-    EXPECT_EQ(arkit_name(builtin_catalogue(), "17LW"), "AU17_LW");
+    EXPECT_EQ(builtin_catalogue().expression("12LW").name(), "AU12_LW");
+    EXPECT_EQ(builtin_catalogue().expression("A12LWA15L").name(), "AU12_LW+AU15_L");
+    EXPECT_EQ(arkit_name_of("17"), "mouthShrugLower");
+    EXPECT_EQ(arkit_name_of("17LW"), "AU17_LW");
 }
 
 TEST(FacsCatalogue, refuses_what_is_no_expression_and_says_what_is) {
     for (const auto* word : {"", "N", "smile", "4,12", "12X", "A12A", "AU", "12+"})
-        EXPECT_THAT(database::message_of<InputError>([&] { (void)builtin_catalogue().code(word); }),
+        EXPECT_THAT(test::message_of<InputError>([&] { (void)builtin_catalogue().expression(word); }),
                     testing::AllOf(HasSubstr("neither an AU"), HasSubstr("HAPPY")))
             << word;
 }
 
 TEST(FacsCatalogue, refuses_half_of_a_unit_that_moves_both_sides_at_once) {
     try {
-        (void)builtin_catalogue().resolve("17L");
+        (void)builtin_catalogue().expression("17L");
         FAIL() << "accepted";
     } catch (const InputError& e) {
         EXPECT_THAT(e.what(), HasSubstr("AU17 (Chin Raiser) moves both sides at once"));
@@ -125,7 +133,7 @@ TEST(FacsCatalogue, refuses_half_of_a_unit_that_moves_both_sides_at_once) {
 
 TEST(FacsCatalogue, names_the_units_there_are_when_one_is_unknown) {
     try {
-        (void)builtin_catalogue().resolve("88");
+        (void)builtin_catalogue().expression("88");
         FAIL() << "accepted";
     } catch (const InputError& e) {
         EXPECT_THAT(e.what(), testing::AllOf(HasSubstr("AU88 is not in the catalogue"), HasSubstr("12")));
@@ -133,13 +141,12 @@ TEST(FacsCatalogue, names_the_units_there_are_when_one_is_unknown) {
 }
 
 TEST(FacsCatalogue, gives_arkit_names_only_where_arkit_has_that_shape) {
-    const auto& catalogue = builtin_catalogue();
-    EXPECT_EQ(arkit_name(catalogue, "12L"), "mouthSmileLeft");
-    EXPECT_EQ(arkit_name(catalogue, "4R"), "browDownRight");
-    EXPECT_EQ(arkit_name(catalogue, "17"), "mouthShrugLower");
-    EXPECT_EQ(arkit_name(catalogue, "1"), "browInnerUp");  // ARKit raises both inner brows with one shape
-    EXPECT_EQ(arkit_name(catalogue, "1L"), "AU1_L");
-    EXPECT_EQ(arkit_name(catalogue, "12"), "AU12");
+    EXPECT_EQ(arkit_name_of("12L"), "mouthSmileLeft");
+    EXPECT_EQ(arkit_name_of("4R"), "browDownRight");
+    EXPECT_EQ(arkit_name_of("17"), "mouthShrugLower");
+    EXPECT_EQ(arkit_name_of("1"), "browInnerUp");  // ARKit raises both inner brows with one shape
+    EXPECT_EQ(arkit_name_of("1L"), "AU1_L");
+    EXPECT_EQ(arkit_name_of("12"), "AU12");
 }
 
 TEST(CatalogueLinter, is_content_with_a_sound_file) { EXPECT_THAT(lint_catalogue(catalogue_with("")), IsEmpty()); }

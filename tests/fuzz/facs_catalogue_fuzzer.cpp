@@ -10,7 +10,7 @@ namespace {
 
 void check_sound(const facs::FacsCatalogue& catalogue) {
     std::set<int> numbers;
-    for (const auto& unit : catalogue.units()) {
+    for (const auto& unit : catalogue.action_units()) {
         require(unit.number >= 1 && unit.number <= 99 && numbers.insert(unit.number).second, "AUs have own numbers");
         require(!unit.points.empty() && !unit.zone.empty(), "an AU has points and a zone");
         for (const auto& point : unit.points) {

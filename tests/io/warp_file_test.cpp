@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "geometry/landmark_spline.h"
 #include "io/mesh_io.h"
 #include "io/points_csv.h"
 #include "tests/support/thrown.h"
@@ -107,9 +108,8 @@ TEST_F(Warp, takes_the_texture_image_along_under_a_name_that_no_other_image_has)
     }
     EXPECT_EQ(base::read_text(at("elsewhere/out_texture.png")), "not decoded here");
     EXPECT_EQ(base::read_text(at("elsewhere/skin.png")), "somebody else's");
-    WarpOptions nobody;
-    nobody.check_texture = [](const std::filesystem::path& image) { throw InputError(image.filename().string()); };
-    EXPECT_EQ(message_of([&] { (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("no.obj"), nobody); }),
+    const auto nobody = [](const std::filesystem::path& image) { throw InputError(image.filename().string()); };
+    EXPECT_EQ(message_of([&] { (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("no.obj"), {}, nobody); }),
               "skin.png");
     EXPECT_FALSE(std::filesystem::exists(at("no.obj")) || std::filesystem::exists(at("no_texture.png")));
     std::filesystem::remove(at("tex/skin.png"));

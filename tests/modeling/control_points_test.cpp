@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "facs/reference_face.h"
+#include "tests/support/expressions.h"
 
 namespace mimik::modeling {
 namespace {
@@ -43,38 +44,10 @@ const ControlPoint* find(const std::vector<ControlPoint>& points, const std::str
     return it == points.end() ? nullptr : &*it;
 }
 
-TEST(facs::Placement, of_a_landmark_is_that_landmark_on_the_side_asked_for) {
-    const facs::Placement corner{{{"mouth_corner", 1.0}}, 0, 0};
-    EXPECT_EQ(facs::place(corner, facs::reference_landmarks(), Side::left),
-              facs::reference_landmarks().position_mm("mouth_corner_left"));
-    EXPECT_EQ(facs::place(corner, facs::reference_landmarks(), Side::right),
-              facs::reference_landmarks().position_mm("mouth_corner_right"));
-}
-
-TEST(facs::Placement, offsets_are_outer_eye_distances_away_from_the_midline) {
-    const facs::Placement beside{{{"mouth_corner", 1.0}}, 0.1, -0.2};
-    const double unit = 89.0;  // of the reference face: eye corners at -44.5 and 44.5 mm, same height and depth
-    const auto left = facs::place(beside, facs::reference_landmarks(), Side::left),
-               right = facs::place(beside, facs::reference_landmarks(), Side::right);
-    EXPECT_NEAR(left.x(), 25.5 + 0.1 * unit, 1e-9);
-    EXPECT_NEAR(right.x(), -25.5 - 0.1 * unit, 1e-9);
-    EXPECT_NEAR(left.y(), -39 - 0.2 * unit, 1e-9);
-}
-
-TEST(facs::Placement, misses_no_landmark_in_silence) {
-    const geometry::Landmarks few({{"eye_outer_left", {44, 0, 0}, ""}, {"eye_outer_right", {-44, 0, 0}, ""}});
-    try {
-        (void)facs::place({{{"chin", 1.0}}, 0, 0}, few, Side::left);
-        FAIL() << "placed";
-    } catch (const InputError& e) {
-        EXPECT_THAT(e.what(), HasSubstr("chin"));
-    }
-}
-
 TEST(ControlPoints, of_every_unit_lie_on_the_surface_and_apart) {
     const auto surface = bowl();
-    for (const auto& unit : facs::builtin_catalogue().units()) {
-        const auto placed = place_controls(facs::builtin_catalogue(), std::to_string(unit.number),
+    for (const auto& unit : facs::builtin_catalogue().action_units()) {
+        const auto placed = place_controls(facs::builtin_catalogue(), test::expression(std::to_string(unit.number)),
                                            facs::reference_landmarks(), surface);
         EXPECT_GE(placed.controls.size(), 12U) << unit.number;
         std::vector<ControlPoint> all = placed.controls;
@@ -90,8 +63,8 @@ TEST(ControlPoints, of_every_unit_lie_on_the_surface_and_apart) {
 
 TEST(ControlPoints, are_symmetric_on_a_symmetric_face) {
     const auto surface = bowl();
-    for (const auto& unit : facs::builtin_catalogue().units()) {
-        const auto placed = place_controls(facs::builtin_catalogue(), std::to_string(unit.number),
+    for (const auto& unit : facs::builtin_catalogue().action_units()) {
+        const auto placed = place_controls(facs::builtin_catalogue(), test::expression(std::to_string(unit.number)),
                                            facs::reference_landmarks(), surface);
         for (const auto* list : {&placed.controls, &placed.anchors})
             for (const auto& point : *list) {
@@ -105,7 +78,8 @@ TEST(ControlPoints, are_symmetric_on_a_symmetric_face) {
 }
 
 TEST(ControlPoints, of_one_side_stay_on_that_side_and_hold_the_other_still) {
-    const auto placed = place_controls(facs::builtin_catalogue(), "12L", facs::reference_landmarks(), bowl());
+    const auto placed =
+        place_controls(facs::builtin_catalogue(), test::expression("12L"), facs::reference_landmarks(), bowl());
     EXPECT_NE(find(placed.controls, "AU12.mouth_corner_left"), nullptr);
     EXPECT_EQ(find(placed.controls, "AU12.mouth_corner_right"), nullptr);
     for (const auto& point : placed.controls)  // the zone of one half may reach a little over the midline
@@ -118,8 +92,9 @@ TEST(ControlPoints, of_one_side_stay_on_that_side_and_hold_the_other_still) {
 }
 
 TEST(ControlPoints, anchors_stand_outside_the_zone_by_the_margin) {
-    const auto placed = place_controls(facs::builtin_catalogue(), "15", facs::reference_landmarks(), bowl());
-    const facs::ExpressionZone zone(facs::builtin_catalogue(), "15", facs::reference_landmarks());
+    const auto placed =
+        place_controls(facs::builtin_catalogue(), test::expression("15"), facs::reference_landmarks(), bowl());
+    const facs::ExpressionZone zone(facs::builtin_catalogue(), test::expression("15"), facs::reference_landmarks());
     EXPECT_GT(placed.anchors.size(), 20U);
     for (const auto& anchor : placed.anchors)
         EXPECT_GE(zone.distance(anchor.position_mm), facs::builtin_catalogue().sampling().anchor_margin - 1e-9)
@@ -128,8 +103,8 @@ TEST(ControlPoints, anchors_stand_outside_the_zone_by_the_margin) {
 
 TEST(ControlPoints, of_the_thesis_number_12_to_26_for_each_of_its_units) {
     for (const int number : {1, 2, 4, 12, 14, 15, 17, 20}) {
-        const auto placed =
-            place_controls(facs::builtin_catalogue(), std::to_string(number), facs::reference_landmarks(), bowl());
+        const auto placed = place_controls(facs::builtin_catalogue(), test::expression(std::to_string(number)),
+                                           facs::reference_landmarks(), bowl());
         const auto anatomical = std::count_if(placed.controls.begin(), placed.controls.end(),
                                               [](const auto& p) { return p.kind != facs::ControlKind::coverage; });
         EXPECT_GE(anatomical, 12) << number;
@@ -150,15 +125,16 @@ geometry::SurfaceIndex flat_scan(double low_mm) {
 
 TEST(ControlPoints, off_the_surface_are_left_out_by_name) {
     // A scan that ends at the mouth corners' height: what lies below is not there to be moved.
-    const auto placed = place_controls(facs::builtin_catalogue(), "15", facs::reference_landmarks(), flat_scan(-35.0));
+    const auto placed = place_controls(facs::builtin_catalogue(), test::expression("15"), facs::reference_landmarks(),
+                                       flat_scan(-35.0));
     EXPECT_THAT(placed.left_out, testing::Contains("AU15.triangularis_low_left: off the face"));
 }
 
 TEST(ControlPoints, of_the_coverage_are_counted_and_only_where_most_meet_no_surface) {
     const auto notes = [](double low_mm, const PlacedKinds& kinds) {
-        auto left_out =
-            place_controls(facs::builtin_catalogue(), "15", facs::reference_landmarks(), flat_scan(low_mm), kinds)
-                .left_out;
+        auto left_out = place_controls(facs::builtin_catalogue(), test::expression("15"), facs::reference_landmarks(),
+                                       flat_scan(low_mm), kinds)
+                            .left_out;
         std::erase_if(left_out, [](const std::string& note) { return note.find("coverage") == std::string::npos; });
         return left_out;
     };
@@ -172,9 +148,10 @@ TEST(ControlPoints, of_the_coverage_are_counted_and_only_where_most_meet_no_surf
 
 TEST(ControlPoints, of_a_kind_that_is_not_wanted_are_not_placed_and_the_others_stay_where_they_were) {
     const auto surface = bowl();
-    const auto all = place_controls(facs::builtin_catalogue(), "12", facs::reference_landmarks(), surface);
-    const auto few = place_controls(facs::builtin_catalogue(), "12", facs::reference_landmarks(), surface,
-                                    {.coverage = false, .anchors = false});
+    const auto all =
+        place_controls(facs::builtin_catalogue(), test::expression("12"), facs::reference_landmarks(), surface);
+    const auto few = place_controls(facs::builtin_catalogue(), test::expression("12"), facs::reference_landmarks(),
+                                    surface, {.coverage = false, .anchors = false});
     EXPECT_THAT(few.anchors, testing::IsEmpty());
     ASSERT_LT(few.controls.size(), all.controls.size());
     for (std::size_t k = 0; k < few.controls.size(); ++k) {
@@ -183,21 +160,6 @@ TEST(ControlPoints, of_a_kind_that_is_not_wanted_are_not_placed_and_the_others_s
         EXPECT_EQ(few.controls[k].position_mm, all.controls[k].position_mm);
     }
     EXPECT_EQ(all.controls[few.controls.size()].kind, facs::ControlKind::coverage);
-}
-
-TEST(facs::ExpressionZone, holds_the_part_that_moves_and_not_the_rest) {
-    const auto inside = [](const std::string& code, const std::string& mark) {
-        return facs::ExpressionZone(facs::builtin_catalogue(), code, facs::reference_landmarks())
-                   .distance(facs::reference_landmarks().position_mm(mark)) <= 0;
-    };
-    EXPECT_TRUE(inside("12", "mouth_corner_left"));
-    EXPECT_TRUE(inside("12", "mouth_corner_right"));
-    EXPECT_FALSE(inside("12L", "mouth_corner_right"));
-    EXPECT_FALSE(inside("12", "brow_middle_left"));
-    EXPECT_TRUE(inside("1", "brow_inner_left"));
-    EXPECT_FALSE(inside("1", "chin"));
-    EXPECT_TRUE(inside("17", "chin"));
-    EXPECT_FALSE(inside("17", "nose_tip"));
 }
 
 }  // namespace

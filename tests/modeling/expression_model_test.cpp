@@ -10,6 +10,7 @@
 #include "modeling/average_fingerprint.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
+#include "tests/support/expressions.h"
 
 namespace mimik::modeling {
 namespace {
@@ -33,8 +34,8 @@ protected:
     }
     static ExpressionModel measure(const test::AnalyticSubject& subject, const ModelOptions& options = {},
                                    const std::string& code = "12") {
-        return measure_expression(facs::builtin_catalogue(), code, *average_, subject.neutral, subject.smiling,
-                                  options);
+        return measure_expression(facs::builtin_catalogue(), test::expression(code), *average_, subject.neutral,
+                                  subject.smiling, options);
     }
     static const ModelPoint& point(const ExpressionModel& model, const std::string& part) {
         for (const auto& candidate : model.points)
@@ -74,8 +75,8 @@ TEST_F(ExpressionModelTest, a_smile_is_measured_as_the_closed_form_has_it_where_
 }
 
 TEST_F(ExpressionModelTest, a_face_that_does_nothing_has_no_displacement) {
-    const auto model =
-        measure_expression(facs::builtin_catalogue(), "12", *average_, source_->neutral, source_->neutral, {});
+    const auto model = measure_expression(facs::builtin_catalogue(), test::expression("12"), *average_,
+                                          source_->neutral, source_->neutral, {});
     EXPECT_GT(model.points.size(), 20U);
     // Equal landmarks: the spline is the identity up to rounding, and every point already lies on the surface.
     EXPECT_LT(model.largest_displacement_mm(), 1e-6);
@@ -103,7 +104,7 @@ TEST_F(ExpressionModelTest, a_unit_whose_zone_lies_across_the_border_moves_both_
     // Cheek raiser, lid tightener and squint are upper face by FACS and move the cheek; the nose wrinkler, lower face,
     // moves the brows.
     const std::set<int> across = {6, 7, 9, 44};
-    for (const auto& unit : facs::builtin_catalogue().units())
+    for (const auto& unit : facs::builtin_catalogue().action_units())
         EXPECT_EQ(halves(std::to_string(unit.number)),
                   across.contains(unit.number) ? std::pair(true, true) : std::pair(!unit.lower_face, unit.lower_face))
             << unit.number;
@@ -131,7 +132,7 @@ TEST_F(ExpressionModelTest, each_kind_of_point_can_be_left_out_and_the_thesis_le
     const auto thesis = kinds(thesis_model);
     EXPECT_EQ(thesis.size(), 2U);
     EXPECT_EQ(thesis.count(facs::ControlKind::coverage) + thesis.count(facs::ControlKind::anchor), 0U);
-    EXPECT_EQ(thesis_model.frame, Normalisation::affine);
+    EXPECT_EQ(thesis_model.normalisation, Normalisation::affine);
     // Points and their images are grid vertices in the affine frame, so the whole vector is a difference of two.
     const auto& to_average = source_->neutral.average_from_scan_affine;
     for (const auto& control : thesis_model.points) {
@@ -146,8 +147,8 @@ TEST_F(ExpressionModelTest, each_kind_of_point_can_be_left_out_and_the_thesis_le
 
 TEST_F(ExpressionModelTest, the_two_sides_of_a_smile_mirror_each_other) {
     const auto left = measure(*source_, {}, "12L"), right = measure(*source_, {}, "12R");
-    EXPECT_EQ(left.expression, "AU12_L");
-    EXPECT_EQ(right.expression, "AU12_R");
+    EXPECT_EQ(left.expression.name(), "AU12_L");
+    EXPECT_EQ(right.expression.name(), "AU12_R");
     const auto& at_left = point(left, "mouth_corner_left");
     const auto& at_right = point(right, "mouth_corner_right");
     // The face is symmetric, its pose is not: grids of other cells round the surface by some hundredths of a
@@ -320,8 +321,8 @@ TEST_F(ExpressionModelTest, a_missing_landmark_and_an_unknown_expression_are_nam
     ModelOptions on_source;
     on_source.place_on_average = false;
     EXPECT_THAT(message_of<InputError>([&] {
-                    (void)measure_expression(facs::builtin_catalogue(), "12", *average_, neutral, source_->smiling,
-                                             on_source);
+                    (void)measure_expression(facs::builtin_catalogue(), test::expression("12"), *average_, neutral,
+                                             source_->smiling, on_source);
                 }),
                 HasSubstr("'nose_tip' is missing"));
     EXPECT_THAT(message_of<InputError>([&] { (void)measure(*source_, {}, "99"); }), HasSubstr("99"));
@@ -335,7 +336,8 @@ TEST_F(ExpressionModelTest, closed_lips_with_two_marks_on_one_place_are_measured
     neutral.landmarks = geometry::Landmarks(marks);
     ModelOptions exact;  // the default smooths over landmark jitter, of which there is none here
     exact.smoothing = 0;
-    const auto model = measure_expression(facs::builtin_catalogue(), "12", *average_, neutral, source_->smiling, exact);
+    const auto model = measure_expression(facs::builtin_catalogue(), test::expression("12"), *average_, neutral,
+                                          source_->smiling, exact);
     EXPECT_THAT(model.left_out, testing::Contains(HasSubstr("'lower_lip_inner' lies on 'upper_lip_inner'")));
     EXPECT_GT(model.largest_displacement_mm(), 4.0);
 }

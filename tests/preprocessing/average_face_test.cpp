@@ -6,8 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
-#include "geometry/landmark_spline.h"
-#include "preprocessing/workspace.h"
+#include "preprocessing/preprocess_scan.h"
 #include "tests/support/analytic_face.h"
 
 namespace mimik::preprocessing {
@@ -58,23 +57,6 @@ TEST(ConsensusLandmarks, marks_that_few_have_and_marks_that_are_missing_change_n
     EXPECT_NEAR(eyes_mm, 90.0, 1e-6);  // all four faces are the same one
 }
 
-TEST(LandmarkPairs, landmarks_that_lie_on_one_another_are_merged_by_name_and_the_spline_still_passes_through_the_rest) {
-    const auto marks = test::AnalyticFace{}.landmarks();
-    std::vector<geometry::Landmark> closed(marks.all().begin(), marks.all().end());
-    for (auto& mark : closed)
-        if (mark.name == "lower_lip_inner") mark.position_mm = marks.position_mm("upper_lip_inner");
-    const Landmarks from(closed);
-    const auto to = test::AnalyticFace{1.2, 5}.landmarks();
-    const geometry::LandmarkPairs pairs(from, to);
-    EXPECT_EQ(pairs.merged(), std::vector<std::string>{"'lower_lip_inner' lies on 'upper_lip_inner'"});
-    const auto spline = geometry::landmark_spline(from, to);
-    for (const auto& mark : from.all())
-        if (mark.name != "lower_lip_inner") {
-            // Rounding of a dense solve of 25 equations on coordinates of a hundred millimetres.
-            EXPECT_LT((spline(mark.position_mm) - to.position_mm(mark.name)).norm(), 1e-9) << mark.name;
-        }
-}
-
 TEST(ConsensusLandmarks, one_face_is_no_average) {
     const std::vector<Landmarks> one = {test::AnalyticFace{}.landmarks()};
     EXPECT_THROW((void)consensus_landmarks(one), InputError);
@@ -86,7 +68,7 @@ TEST(AverageFace, of_equal_faces_is_that_face_with_its_nose_tip_at_the_origin) {
     loaded.scan = face.scan(1.0);
     loaded.landmarks = face.landmarks();
     loaded.entry.id = {"bs000", "N", "N", 0};
-    const Face gridded = preprocess_scan(loaded, {});
+    const Face gridded = preprocess_scan(loaded);
     const std::vector<Landmarks> sets = {gridded.landmarks, gridded.landmarks};
     const auto average = build_average_face(
         2, [&](std::size_t) { return gridded; }, consensus_landmarks(sets));
@@ -113,7 +95,7 @@ AverageFace average_of_faces_without(const Lost& lost) {
         if (lost(p)) p.setConstant(std::numeric_limits<double>::quiet_NaN());
     loaded.landmarks = face.landmarks();
     loaded.entry.id = {"bs000", "N", "N", 0};
-    const Face gridded = preprocess_scan(loaded, {});
+    const Face gridded = preprocess_scan(loaded);
     const std::vector<Landmarks> sets = {gridded.landmarks, gridded.landmarks};
     return build_average_face(
         2, [&](std::size_t) { return gridded; }, consensus_landmarks(sets));
@@ -153,7 +135,7 @@ TEST(AverageFace, has_no_step_where_one_of_its_faces_ends) {
         }
         loaded.landmarks = face.landmarks();
         loaded.entry.id = {"bs000", "N", "N", 0};
-        faces.push_back(preprocess_scan(loaded, {}));
+        faces.push_back(preprocess_scan(loaded));
         faces.back().landmarks = face.landmarks();
     }
     const std::vector<Landmarks> sets = {faces[0].landmarks, faces[1].landmarks};

@@ -15,9 +15,12 @@
 #include "base/parallel.h"
 #include "database/bosphorus_landmarks.h"
 #include "database/hidden_subjects.h"
+#include "facs/facs_catalogue.h"
 #include "geometry/surface_index.h"
 #include "io/image.h"
 #include "io/mesh_io.h"
+#include "preprocessing/neutral_alignment.h"
+#include "preprocessing/preprocess_run.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_database.h"
 
@@ -33,9 +36,18 @@ using testing::HasSubstr;
 
 PreprocessOptions quick() {
     PreprocessOptions options;
-    options.gridding.rows = options.gridding.cols = 60;
+    options.steps.gridding.rows = options.steps.gridding.cols = 60;
     options.average.rows = options.average.cols = 60;
     return options;
+}
+
+facs::Expression smile() { return facs::builtin_catalogue().expression("12"); }
+
+/// The same Action Units in a text of its own.
+const facs::FacsCatalogue& other_catalogue() {
+    static const auto catalogue =
+        facs::parse_catalogue(std::string(facs::builtin_catalogue_text()) + "# mine\n", "mine.toml");
+    return catalogue;
 }
 
 std::map<std::string, std::string> contents(const fs::path& folder) {
@@ -49,7 +61,7 @@ class WorkspaceTest : public testing::Test {
 protected:
     void SetUp() override { test::write_analytic_database(database_); }
     [[nodiscard]] PreprocessReport preprocess(const PreprocessOptions& options = quick()) const {
-        return preprocess_database(database::open_database(database_), workspace_, options);
+        return preprocess_database(database::open_database(database_), workspace_, *catalogue_, options);
     }
     [[nodiscard]] fs::path face_file(const std::string& name) const {
         return workspace_ / "faces" / name.substr(0, 5) / name;
@@ -57,6 +69,7 @@ protected:
 
     database::TemporaryFolder folder_;
     const fs::path database_ = folder_.path() / "db", workspace_ = folder_.path() / "work";
+    const facs::FacsCatalogue* catalogue_ = &facs::builtin_catalogue();
 };
 
 TEST_F(WorkspaceTest, every_scan_becomes_a_face_and_an_expression_lies_on_its_neutral) {
@@ -68,7 +81,7 @@ TEST_F(WorkspaceTest, every_scan_becomes_a_face_and_an_expression_lies_on_its_ne
     EXPECT_THAT(workspace.subjects(), ElementsAre("bs000", "bs001", "bs002"));
     EXPECT_EQ(workspace.average().scans.size(), 3U);
     for (int k = 0; k < 3; ++k) {
-        const auto face = workspace.face(*workspace.expression("bs00" + std::to_string(k), "12"));
+        const auto face = workspace.face(*workspace.scan_of("bs00" + std::to_string(k), smile()));
         const auto neutral_from_scan = test::analytic_pose(2 * k) * test::analytic_pose(2 * k + 1).inverse();
         for (const auto* name : {"brow_outer_left", "eye_inner_right", "chin"}) {
             const Point& mark = face.landmarks.position_mm(name);
@@ -88,7 +101,7 @@ TEST_F(WorkspaceTest, a_second_run_finds_everything_done_and_changes_no_byte) {
     (void)preprocess();
     const auto before = contents(workspace_);
     std::atomic<int> told = 0;
-    const auto report = preprocess_database(database::open_database(database_), workspace_, quick(), {},
+    const auto report = preprocess_database(database::open_database(database_), workspace_, *catalogue_, quick(),
                                             [&](const std::string&) { ++told; });
     EXPECT_EQ(report.preprocessed, 0U);
     EXPECT_EQ(report.up_to_date, 6U);
@@ -117,7 +130,7 @@ TEST_F(WorkspaceTest, deleted_cut_and_garbled_files_are_made_again_as_they_were)
 TEST_F(WorkspaceTest, another_option_or_another_scan_is_preprocessed_anew) {
     (void)preprocess();
     auto options = quick();
-    options.cleaning.spike_mm = 5;
+    options.steps.cleaning.spike_mm = 5;
     EXPECT_EQ(preprocess(options).preprocessed, 6U);
     EXPECT_EQ(preprocess(options).up_to_date, 6U);
     test::write_analytic_scan(database_, "bs001_LFAU_12_0", {1.0, 4}, test::analytic_pose(3), 1.5);
@@ -133,7 +146,7 @@ TEST_F(WorkspaceTest, what_a_manifest_says_of_a_scan_belongs_to_what_its_face_wa
         auto database = as_it_is;
         for (auto& entry : database.scans)
             if (entry.id == id) correct(entry);
-        return preprocess_database(database, workspace_, quick());
+        return preprocess_database(database, workspace_, *catalogue_, quick());
     };
     const std::function<void(database::ScanEntry&)> corrections[] = {
         [](database::ScanEntry& entry) { entry.unit = io::LengthUnit::metre; },
@@ -160,7 +173,7 @@ TEST_F(WorkspaceTest, an_image_that_only_the_scan_file_names_counts_from_the_run
         entry.scan_file.replace_extension(".ply");
         io::write_mesh(entry.scan_file, mesh, {.texture_file = "skin.png"});
     }
-    const auto run = [&] { return preprocess_database(database, workspace_, quick()); };
+    const auto run = [&] { return preprocess_database(database, workspace_, *catalogue_, quick()); };
     const auto texture_of = [&](const char* name) {
         return Workspace(workspace_).face(*database::parse_scan_name(name)).texture_file;
     };
@@ -198,7 +211,7 @@ TEST_F(WorkspaceTest, an_image_or_image_landmarks_that_come_change_or_go_make_th
         EXPECT_EQ(report.preprocessed, 1U) << what;  // neither the average nor another face rests on it
         EXPECT_EQ(report.up_to_date, 5U) << what;
         const auto fresh = folder_.path() / "fresh";
-        (void)preprocess_database(database::open_database(database_), fresh, quick());
+        (void)preprocess_database(database::open_database(database_), fresh, *catalogue_, quick());
         EXPECT_TRUE(contents(workspace_) == contents(fresh)) << what;  // too long to print
         fs::remove_all(fresh);
         return Workspace(workspace_).face(*database::parse_scan_name("bs001_N_N_0")).remarks;
@@ -250,7 +263,8 @@ TEST_F(WorkspaceTest, closed_lips_are_counted_and_other_landmarks_on_one_grid_ve
     };
     put("lower_lip_inner", "upper_lip_inner");
     auto options = quick();
-    options.gridding.rows = 100;  // 1.5 mm between rows: the inner lips of the others, 2 mm apart, keep their vertices
+    options.steps.gridding.rows =
+        100;  // 1.5 mm between rows: the inner lips of the others, 2 mm apart, keep their vertices
     const auto report = preprocess(options);
     EXPECT_TRUE(report.remarks.empty());
     EXPECT_THAT(report.closed_lips, ElementsAre("bs001_LFAU_12_0"));
@@ -266,7 +280,7 @@ TEST_F(WorkspaceTest, closed_lips_are_counted_and_other_landmarks_on_one_grid_ve
 TEST_F(WorkspaceTest, the_plan_is_what_the_run_then_does_and_writes_nothing) {
     const auto expect_plan = [&](const PreprocessOptions& options, std::size_t up_to_date, std::size_t remaining) {
         const auto before = fs::exists(workspace_) ? contents(workspace_) : std::map<std::string, std::string>();
-        const auto plan = plan_preprocessing(database::open_database(database_), workspace_, options);
+        const auto plan = plan_preprocessing(database::open_database(database_), workspace_, *catalogue_, options);
         EXPECT_EQ(plan.up_to_date, up_to_date);
         EXPECT_EQ(plan.remaining, remaining);
         EXPECT_TRUE(before.empty() ? !fs::exists(workspace_) : contents(workspace_) == before);
@@ -280,7 +294,7 @@ TEST_F(WorkspaceTest, the_plan_is_what_the_run_then_does_and_writes_nothing) {
     expect_plan(fewer, 0, 4);
     expect_plan(fewer, 4, 0);
     expect_plan(options, 0, 6);  // another average: neutrals are tied, the others aligned anew
-    options.stable_region_name = "another catalogue";
+    catalogue_ = &other_catalogue();
     expect_plan(options, 3, 3);
     fs::remove(face_file("bs000_LFAU_12_0.ply"));
     fs::remove(face_file("bs001_N_N_0.json"));
@@ -290,7 +304,8 @@ TEST_F(WorkspaceTest, the_plan_is_what_the_run_then_does_and_writes_nothing) {
     (void)preprocess(options);
     expect_plan(options, 6, 1);  // its place was taken; it is tried again
     fewer.subjects = {"bs001"};
-    EXPECT_THROW((void)plan_preprocessing(database::open_database(database_), workspace_, fewer), InputError);
+    EXPECT_THROW((void)plan_preprocessing(database::open_database(database_), workspace_, *catalogue_, fewer),
+                 InputError);
 }
 
 TEST_F(WorkspaceTest, an_image_beside_a_mesh_without_texture_coordinates_is_no_texture_of_the_face) {
@@ -348,11 +363,10 @@ TEST_F(WorkspaceTest, a_scan_with_exchanged_labels_fails_and_one_with_an_odd_chi
     }));
 }
 
-TEST_F(WorkspaceTest, another_stable_region_aligns_the_scans_anew_and_marks_do_not_grow_with_the_subjects) {
+TEST_F(WorkspaceTest, another_facs_catalogue_aligns_the_scans_anew_and_marks_do_not_grow_with_the_subjects) {
     (void)preprocess();
-    auto options = quick();
-    options.stable_region_name = "another catalogue";
-    EXPECT_EQ(preprocess(options).preprocessed, 3U);  // the neutrals have nothing to be aligned to
+    catalogue_ = &other_catalogue();
+    EXPECT_EQ(preprocess().preprocessed, 3U);  // the neutrals have nothing to be aligned to
     EXPECT_THAT(base::read_text(face_file("bs001_LFAU_12_0.done")), testing::Not(HasSubstr("bs002")));
 }
 
@@ -379,7 +393,7 @@ TEST_F(WorkspaceTest, a_cloud_with_front_and_back_is_refused_and_the_rest_is_don
         entry.scan_file.replace_extension(".ply");
         io::write_mesh(entry.scan_file, mesh);
     }
-    const auto report = preprocess_database(database, workspace_, quick());
+    const auto report = preprocess_database(database, workspace_, *catalogue_, quick());
     ASSERT_EQ(report.failures.size(), 1U);
     EXPECT_THAT(report.failures[0].reason, AllOf(HasSubstr(".ply"), HasSubstr("front and back")));
     EXPECT_EQ(report.preprocessed, 5U);
@@ -391,7 +405,7 @@ TEST_F(WorkspaceTest, a_database_is_never_written_into_but_a_folder_around_or_be
     for (const auto& place : {database_, database_ / "", database_ / "x" / "..", database_ / "bs001",
                               database_ / "bs001" / "work", database_ / "truth" / "work", database_ / "work",
                               database_ / "not" / "there", folder_.path() / "way" / ".." / "db" / "work"})
-        EXPECT_THAT(message_of<InputError>([&] { (void)preprocess_database(database, place, quick()); }),
+        EXPECT_THAT(message_of<InputError>([&] { (void)preprocess_database(database, place, *catalogue_, quick()); }),
                     HasSubstr("into which nothing is written"))
             << place;
     EXPECT_EQ(contents(database_), before);
@@ -407,11 +421,12 @@ TEST_F(WorkspaceTest, a_folder_that_takes_no_faces_is_found_out_before_any_scan_
     const auto database = database::open_database(database_);
     base::write_atomically(folder_.path() / "file", "mine");
     for (const auto& scan : database.scans) fs::resize_file(scan.scan_file, 0);  // reading any would fail otherwise
-    EXPECT_THAT(message_of<InputError>([&] { (void)preprocess_database(database, folder_.path() / "file", quick()); }),
+    EXPECT_THAT(message_of<InputError>(
+                    [&] { (void)preprocess_database(database, folder_.path() / "file", *catalogue_, quick()); }),
                 HasSubstr("file: is a file; give a folder"));
-    EXPECT_THAT(
-        message_of<InputError>([&] { (void)preprocess_database(database, folder_.path() / "file" / "x", quick()); }),
-        HasSubstr("file/x: the folder cannot be made"));
+    EXPECT_THAT(message_of<InputError>(
+                    [&] { (void)preprocess_database(database, folder_.path() / "file" / "x", *catalogue_, quick()); }),
+                HasSubstr("file/x: the folder cannot be made"));
     EXPECT_EQ(base::read_text(folder_.path() / "file"), "mine");
 }
 
@@ -438,12 +453,13 @@ TEST_F(WorkspaceTest, a_run_that_ends_half_way_leaves_no_workspace_and_the_next_
     struct Stopped {};
     (void)preprocess();
     auto options = quick();
-    options.cleaning.spike_mm = 5;
+    options.steps.cleaning.spike_mm = 5;
     const auto stop = [](const std::string& scan) {
         if (scan == "bs001_LFAU_12_0") throw Stopped();
     };
     base::set_thread_count(1);
-    EXPECT_THROW((void)preprocess_database(database::open_database(database_), workspace_, options, {}, stop), Stopped);
+    EXPECT_THROW((void)preprocess_database(database::open_database(database_), workspace_, *catalogue_, options, stop),
+                 Stopped);
     base::set_thread_count(0);
     EXPECT_THAT(message_of<InputError>([&] { Workspace{workspace_}; }), HasSubstr("no finished workspace there"));
     const auto report = preprocess(options);
@@ -459,7 +475,7 @@ TEST_F(WorkspaceTest, a_bad_scan_is_reported_and_the_rest_is_done) {
     ASSERT_EQ(report.failures.size(), 1U);
     EXPECT_EQ(report.failures[0].scan, "bs001_LFAU_12_0");
     EXPECT_THAT(report.failures[0].reason, HasSubstr("bs001_LFAU_12_0.bnt"));
-    EXPECT_FALSE(Workspace(workspace_).expression("bs001", "12"));
+    EXPECT_FALSE(Workspace(workspace_).scan_of("bs001", smile()));
 }
 
 TEST_F(WorkspaceTest, a_bad_neutral_gives_its_place_to_the_next_and_a_subject_without_one_is_left_out) {
@@ -488,7 +504,7 @@ TEST_F(WorkspaceTest, a_bad_neutral_gives_its_place_to_the_next_and_a_subject_wi
     EXPECT_THAT(report.failures[1].reason, HasSubstr("one plane"));
     const Workspace workspace(workspace_);
     EXPECT_EQ(workspace.neutral("bs000").name(), "bs000_N_N_1");
-    EXPECT_TRUE(workspace.expression("bs000", "12"));
+    EXPECT_TRUE(workspace.scan_of("bs000", smile()));
 }
 
 TEST_F(WorkspaceTest, an_expressive_scan_without_a_chin_mark_is_kept_with_the_affine_map_of_its_neutral) {
@@ -502,7 +518,7 @@ TEST_F(WorkspaceTest, an_expressive_scan_without_a_chin_mark_is_kept_with_the_af
     const auto report = preprocess();
     EXPECT_TRUE(report.failures.empty());
     const Workspace workspace(workspace_);
-    const auto face = workspace.face(*workspace.expression("bs001", "12"));
+    const auto face = workspace.face(*workspace.scan_of("bs001", smile()));
     const auto neutral = workspace.face(workspace.neutral("bs001"));
     EXPECT_TRUE(face.average_from_scan_affine.matrix().isApprox(
         (neutral.average_from_scan_affine * face.neutral_from_scan).matrix(), 1e-12));
@@ -521,7 +537,7 @@ TEST(AlignToNeutral, a_jaw_that_rests_elsewhere_turns_the_forehead_less_than_if_
     scan.grid = grid_scan(open);
     neutral.landmarks = scan.landmarks = shape.landmarks();
     const RigidAlignmentOptions all{.trim = 1.0};  // closed forms have no noise, so trimming would find the jaw
-    align_to_neutral(scan, neutral, std::vector<char>(neutral.grid.size(), 1), all);
+    align_to_neutral(scan, neutral, geometry::VertexMask(neutral.grid.size(), 1), all);
 
     std::vector<Point> everything;
     for (std::size_t v = 0; v < neutral.grid.size(); ++v)
@@ -630,7 +646,7 @@ TEST_F(WorkspaceTest, a_selection_that_names_what_is_not_there_is_refused_by_nam
 
 TEST_F(WorkspaceTest, bad_options_are_refused_before_any_scan_is_read) {
     auto options = quick();
-    options.gridding.rows = 1;
+    options.steps.gridding.rows = 1;
     EXPECT_THROW((void)preprocess(options), InputError);
     EXPECT_FALSE(fs::exists(workspace_));
 }

@@ -16,6 +16,7 @@
 #include "io/landmark_io.h"
 #include "io/mesh_io.h"
 #include "tests/database/temporary_folder.h"
+#include "tests/support/expressions.h"
 #include "tests/support/workspace_test.h"
 
 namespace mimik::report {
@@ -35,8 +36,14 @@ ComparisonRequest smile(const std::string& source, const std::string& target) {
     ComparisonRequest request;
     request.source = source;
     request.target = target;
-    request.expression = "12";
+    request.expression = test::expression("12");
     return request;
+}
+
+void use_thesis(ComparisonRequest& request) {
+    request.method_name = "thesis";
+    request.model = modeling::ModelOptions::thesis();
+    request.animation = animation::AnimationOptions::thesis();
 }
 
 json description_of(const ComparisonFigure& figure) { return json::parse(base::read_text(figure.description)); }
@@ -135,14 +142,14 @@ TEST_F(ComparisonPanels, colours_are_the_distances_that_the_captions_sum_up) {
     const auto figure = panels(smile("bs000", "bs001"), "colours");
     ASSERT_EQ(figure.people.size(), 2U);
     EXPECT_EQ(figure.people[1].subject, "bs001");
-    const auto& distances = figure.people[1].distances;
+    const auto& distances = figure.people[1];
     const auto neutral = attribute(io::read_mesh(out("colours") / "target_neutral.ply"), "distance_mm");
     const auto animated = attribute(io::read_mesh(out("colours") / "target_animated.ply"), "distance_mm");
     // The same numbers added up in another order.
-    EXPECT_NEAR(mean_of_finite(neutral), distances.whole_nothing_mm, 1e-9);
-    EXPECT_NEAR(mean_of_finite(animated), distances.whole_mm, 1e-9);
+    EXPECT_NEAR(mean_of_finite(neutral), distances.face_nothing_mm, 1e-9);
+    EXPECT_NEAR(mean_of_finite(animated), distances.face_mm, 1e-9);
     EXPECT_LT(distances.zone_mm, distances.zone_nothing_mm);
-    EXPECT_DOUBLE_EQ(figure.people[1].explained(), 1 - distances.zone_mm / distances.zone_nothing_mm);
+    EXPECT_DOUBLE_EQ(*figure.people[1].explained(), 1 - distances.zone_mm / distances.zone_nothing_mm);
     // The scale is the 99th percentile of doing nothing: at most one vertex in a hundred lies above it.
     std::size_t above = 0, finite = 0;
     for (const double value : neutral) {
@@ -154,13 +161,13 @@ TEST_F(ComparisonPanels, colours_are_the_distances_that_the_captions_sum_up) {
 
 TEST_F(ComparisonPanels, magnitude_nought_is_doing_nothing) {
     auto request = smile("bs000", "bs001");
-    request.method.magnitude = 0;
+    request.magnitude = 0;
     const auto figure = panels(request, "nought");
-    const auto& distances = figure.people[1].distances;
+    const auto& distances = figure.people[1];
     EXPECT_EQ(distances.zone_mm, distances.zone_nothing_mm);
     EXPECT_EQ(io::read_mesh(out("nought") / "target_animated.ply").vertices_mm,
               io::read_mesh(out("nought") / "target_neutral.ply").vertices_mm);
-    EXPECT_EQ(comparison_name(catalogue(), request), "AU12_m0_bs000_on_bs001_default");
+    EXPECT_EQ(comparison_name(request), "AU12_m0_bs000_on_bs001_default");
 }
 
 TEST_F(ComparisonPanels, a_person_who_is_source_and_target_has_one_row) {
@@ -184,28 +191,28 @@ TEST_F(ComparisonPanels, a_mean_shows_the_average_face_neutral_and_moved_before_
 
 TEST_F(ComparisonPanels, the_thesis_method_draws_its_own_points_and_no_coverage) {
     auto request = smile("bs000", "bs001");
-    request.method = evaluation::method_by_name("thesis");
+    use_thesis(request);
     (void)panels(request, "thesis");
     EXPECT_TRUE(fs::exists(out("thesis") / "source_controls.csv"));
     EXPECT_FALSE(fs::exists(out("thesis") / "source_controls_coverage.csv"));
-    EXPECT_EQ(comparison_name(catalogue(), request), "AU12_bs000_on_bs001_thesis");
+    EXPECT_EQ(comparison_name(request), "AU12_bs000_on_bs001_thesis");
 }
 
 TEST_F(ComparisonPanels, a_note_on_a_point_begins_with_the_expression_and_none_tells_of_the_lattices_rim) {
-    auto units = catalogue().units();
+    auto units = catalogue().action_units();
     for (auto& unit : units)
         if (unit.number == 12) unit.points.front().placement.up += 3;  // outer-eye distances: above every head
     const facs::FacsCatalogue beyond(catalogue().sampling(), units, {});
     const auto note = "AU12_L: AU12." + beyond.find(12)->points.front().name + "_left: off the face";
     auto request = smile("bs000", "bs001");
-    request.expression = "12L";
+    request.expression = test::expression("12L");
     for (const auto* method : {"default", "thesis"}) {
-        request.method = evaluation::method_by_name(method);
+        if (std::string_view(method) == "thesis") use_thesis(request);
         EXPECT_THAT(write_comparison_panels(*workspace_, beyond, request, out("notes")).remarks,
                     testing::UnorderedElementsAre(note, HasSubstr("was taken from one side of"),
                                                   HasSubstr("has no scan of expression")))
             << method;
-        const std::vector<std::string> expressions = {"12L"};
+        const auto expressions = test::expressions({"12L"});
         const std::vector<double> magnitudes = {1};
         EXPECT_THAT(write_magnitude_series(*workspace_, beyond, request, expressions, magnitudes, out("notes")).remarks,
                     ElementsAre(note))
@@ -225,14 +232,14 @@ TEST_F(ComparisonPanels, a_target_without_that_scan_is_shown_without_comparison_
 }
 
 TEST_F(ComparisonPanels, a_series_has_a_row_per_expression_whose_displacements_grow_with_the_magnitude) {
-    const std::vector<std::string> expressions = {"12", "12L"};
+    const auto expressions = test::expressions({"12", "12L"});
     const std::vector<double> magnitudes = {0, 0.5, 1};
     const auto request = smile("bs000", "bs001");
     const auto figure =
         write_magnitude_series(*workspace_, catalogue(), request, expressions, magnitudes, out("series"));
     EXPECT_EQ(figure.panels, 6U);
     EXPECT_EQ(description_of(figure).at("columns"), 3);
-    EXPECT_EQ(series_name(catalogue(), request, expressions), "AU12_AU12_L_series_bs000_on_bs001_default");
+    EXPECT_EQ(series_name(request, expressions), "AU12_AU12_L_series_bs000_on_bs001_default");
     const auto none = io::read_mesh(out("series") / "AU12_m0.ply").vertices_mm;
     const auto half = io::read_mesh(out("series") / "AU12_m0.5.ply").vertices_mm;
     const auto whole = io::read_mesh(out("series") / "AU12_m1.ply").vertices_mm;
@@ -249,7 +256,7 @@ TEST_F(ComparisonPanels, a_series_has_a_row_per_expression_whose_displacements_g
 TEST_F(ComparisonPanels, more_panels_than_letters_go_on_with_two) {
     std::vector<double> magnitudes;
     for (int k = 0; k < 28; ++k) magnitudes.push_back(0.03 * k);
-    const std::vector<std::string> expressions = {"12"};
+    const auto expressions = test::expressions({"12"});
     const auto list = description_of(write_magnitude_series(*workspace_, catalogue(), smile("bs000", "bs001"),
                                                             expressions, magnitudes, out("letters")))
                           .at("panels");
@@ -261,24 +268,23 @@ TEST_F(ComparisonPanels, more_panels_than_letters_go_on_with_two) {
 TEST_F(ComparisonPanels, what_differs_from_the_method_and_the_view_stands_in_the_name) {
     const auto usual = smile("bs000", "bs001");
     const std::string name = "AU12_bs000_on_bs001_default";
-    EXPECT_EQ(comparison_name(catalogue(), usual), name);
+    EXPECT_EQ(comparison_name(usual), name);
     auto view = usual, kernel = usual, anchors = usual, bridged = usual;
     view.view = "three-quarter-left";
-    kernel.method.model.kernel = kernel.method.animation.kernel = geometry::SplineKernel::r2_log_r2;
-    anchors.method.model.anchors = anchors.method.animation.anchors = false;
+    kernel.model.kernel = kernel.animation.kernel = geometry::SplineKernel::r2_log_r2;
+    anchors.model.anchors = anchors.animation.anchors = false;
     bridged.bridged = geometry::BridgedVertices::keep;
-    EXPECT_EQ(comparison_name(catalogue(), view), name + "_three-quarter-left");
-    EXPECT_EQ(comparison_name(catalogue(), kernel), name + "_r2logr");
-    EXPECT_EQ(comparison_name(catalogue(), anchors), name + "_no-anchors");
-    EXPECT_EQ(comparison_name(catalogue(), bridged), name + "_bridged");
-    EXPECT_EQ(series_name(catalogue(), view, std::vector<std::string>{"12"}),
-              "AU12_series_bs000_on_bs001_default_three-quarter-left");
+    EXPECT_EQ(comparison_name(view), name + "_three-quarter-left");
+    EXPECT_EQ(comparison_name(kernel), name + "_r2logr");
+    EXPECT_EQ(comparison_name(anchors), name + "_no-anchors");
+    EXPECT_EQ(comparison_name(bridged), name + "_bridged");
+    EXPECT_EQ(series_name(view, test::expressions({"12"})), "AU12_series_bs000_on_bs001_default_three-quarter-left");
 }
 
 TEST_F(ComparisonPanels, a_series_refuses_what_is_no_magnitude_or_would_share_a_file_and_writes_nothing) {
-    const std::vector<std::string> one = {"12"}, twice = {"12", "12"};
+    const auto one = test::expressions({"12"}), twice = test::expressions({"12", "12"});
     const std::vector<double> near = {0.5, 0.5000001}, apart = {0.5, 1};
-    const auto series = [&](const std::vector<std::string>& expressions, const std::vector<double>& magnitudes) {
+    const auto series = [&](const std::vector<facs::Expression>& expressions, const std::vector<double>& magnitudes) {
         return message_of<InputError>([&] {
             (void)write_magnitude_series(*workspace_, catalogue(), smile("bs000", "bs001"), expressions, magnitudes,
                                          out("shared"));
@@ -293,7 +299,7 @@ TEST_F(ComparisonPanels, a_series_refuses_what_is_no_magnitude_or_would_share_a_
 }
 
 TEST_F(ComparisonPanels, files_of_an_earlier_figure_go_and_what_it_does_not_name_stays) {
-    const std::vector<std::string> expressions = {"12"};
+    const auto expressions = test::expressions({"12"});
     const auto series = [&](const std::vector<double>& magnitudes) {
         (void)write_magnitude_series(*workspace_, catalogue(), smile("bs000", "bs001"), expressions, magnitudes,
                                      out("again/figure"));
@@ -318,12 +324,12 @@ TEST_F(ComparisonPanels, what_cannot_be_shown_is_refused_by_name_before_any_file
     EXPECT_THAT(refused(smile("bs009", "bs001")), HasSubstr("there are: bs000, bs001, bs002"));
     EXPECT_THAT(refused(smile("bs000", "bs009")), HasSubstr("there are: bs000, bs001, bs002"));
     auto frown = smile("bs000", "bs001");
-    frown.expression = "4";
+    frown.expression = test::expression("4");
     EXPECT_THAT(refused(frown), HasSubstr("'bs000' has no scan of expression '4'; there are: 12"));
     frown.source = "mean";
     EXPECT_THAT(refused(frown), HasSubstr("no other subject shows expression '4'"));
     auto thesis = smile("mean", "bs001");
-    thesis.method = evaluation::method_by_name("thesis");
+    use_thesis(thesis);
     EXPECT_THAT(refused(thesis), HasSubstr("the thesis method has no mean"));
     EXPECT_FALSE(fs::exists(out("refused")));
     EXPECT_THAT(message_of<InputError>([&] {
@@ -336,7 +342,7 @@ TEST_F(ComparisonPanels, a_scan_that_a_mean_cannot_use_is_a_failure_beside_the_p
     const database::TemporaryFolder folder;
     const auto workspace = test::analytic_workspace(folder.path());
     base::write_atomically(workspace.root() / "faces" / "bs000" / "bs000_LFAU_12_0.json", "{}");
-    const std::vector<std::string> one = {"12"};
+    const auto one = test::expressions({"12"});
     const std::vector<double> whole = {1};
     const auto panels =
         write_comparison_panels(workspace, catalogue(), smile("mean", "bs001"), folder.path() / "panels");
@@ -351,7 +357,7 @@ TEST_F(ComparisonPanels, a_scan_that_a_mean_cannot_use_is_a_failure_beside_the_p
 TEST_F(ComparisonPanels, a_scan_that_was_aligned_beside_its_neutral_is_named) {
     const database::TemporaryFolder folder;
     const auto workspace = test::analytic_workspace(folder.path());
-    auto smiling = workspace.face(*workspace.expression("bs001", "12"));
+    auto smiling = workspace.face(*workspace.scan_of("bs001", test::expression("12")));
     smiling.neutral_from_scan.pretranslate(Point(1000, 0, 0));
     preprocessing::write_face(workspace.stem(smiling.id), smiling);
     EXPECT_THAT(message_of<InputError>([&] {

@@ -2,8 +2,9 @@
 
 #include <string>
 
+#include "preprocessing/average_face.h"
 #include "preprocessing/normalisation.h"
-#include "preprocessing/workspace.h"
+#include "preprocessing/preprocess_scan.h"
 #include "tests/support/analytic_face.h"
 
 namespace mimik::test {
@@ -17,7 +18,7 @@ inline preprocessing::Face analytic_face(const AnalyticFace& shape, const std::s
     for (auto& p : loaded.scan.points_mm)
         if (p.allFinite()) p = pose * p;
     loaded.landmarks = geometry::transformed(shape.landmarks(), pose);
-    return preprocessing::preprocess_scan(loaded, {});
+    return preprocessing::preprocess_scan(loaded);
 }
 
 inline preprocessing::AverageFace analytic_average() {

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <set>
+#include <span>
+#include <string>
+
+#include "evaluation/case_row.h"
+
+namespace mimik::evaluation {
+
+/// The rows of an experiment on disk: a CSV that every table program reads. Units of work are appended whole, each
+/// followed by a comment line with its name, the number of its rows and a checksum over them, so that a file that was
+/// cut short or damaged is noticed and the units before the fault still count.
+class CaseStore {
+public:
+    /// In a temporary file that nobody sees and that goes with the store.
+    CaseStore();
+    /// In `file`, begun anew. Until finish() it is called `file`.part. @throws InputError if it cannot be written.
+    explicit CaseStore(std::filesystem::path file);
+    ~CaseStore();
+    CaseStore(const CaseStore&) = delete;
+    CaseStore& operator=(const CaseStore&) = delete;
+
+    /// @param unit  one line of text, not stored before. @throws InputError if the disk takes no more.
+    void append(const std::string& unit, std::span<const CaseRow> rows);
+    [[nodiscard]] bool has(const std::string& unit) const { return units_.contains(unit); }
+    [[nodiscard]] std::size_t units() const { return units_.size(); }
+
+    /// All rows that were appended, in that order. @throws InputError naming file and line if they cannot be read back.
+    void read(const std::function<void(const CaseRow&)>& visit) const;
+    /// The file takes its name.
+    void finish();
+
+private:
+    std::filesystem::path file_;     // empty: temporary
+    std::filesystem::path written_;  // where the rows are until finish()
+    std::ofstream out_;
+    std::set<std::string> units_;
+};
+
+/// The whole units of a store's file, row by row: up to the first line that does not fit its checksum.
+/// @return the names of the units. @throws InputError if it is no such file.
+std::set<std::string> read_case_rows(const std::filesystem::path& file,
+                                     const std::function<void(const CaseRow&)>& visit);
+
+}  // namespace mimik::evaluation

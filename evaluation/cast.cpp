@@ -1,0 +1,172 @@
+#include "evaluation/cast.h"
+
+#include <algorithm>
+#include <optional>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+
+namespace mimik::evaluation {
+
+using database::ScanId;
+using geometry::Vector;
+
+LessonBook::LessonBook(const PerformanceReader& reader, const animation::Subject& subject,
+                       std::span<const animation::MethodPointer> methods, FailureList& failures, std::size_t bytes)
+    : reader_(reader), expression_(subject.expression.code()), failures_(failures), room_(bytes) {
+    std::vector<std::string> keys;
+    for (const auto& method : methods) {
+        const auto key = method->lessons_key();
+        const auto known = std::find(keys.begin(), keys.end(), key);
+        learner_of_.push_back(static_cast<std::size_t>(known - keys.begin()));
+        if (known != keys.end()) continue;
+        keys.push_back(key);
+        learner_names_.push_back(method->name());
+        takes_lessons_.push_back(method->needs() != animation::SourceKind::none ? 1 : 0);
+        try {
+            learners_.push_back(method->learner(subject));
+        } catch (const std::exception& e) {
+            learners_.push_back(nullptr);
+            failures_.add(fmt::format("{} by {}: no model of any source: {}", expression_, method->name(), e.what()));
+        }
+    }
+}
+
+std::vector<animation::LessonPointer> LessonBook::study(const modeling::Performance& performance) const {
+    std::vector<animation::LessonPointer> lessons(learners_.size());
+    for (std::size_t l = 0; l < learners_.size(); ++l) try {
+            if (learners_[l] && takes_lessons_[l]) lessons[l] = learners_[l]->study(performance);
+        } catch (const std::exception& e) {
+            failures_.add(fmt::format("{} of {} by {}: no model: {}", expression_, performance.neutral.id.subject,
+                                      learner_names_[l], e.what()));
+        }
+    return lessons;
+}
+
+void LessonBook::add(const ScanId& expressive, std::vector<animation::LessonPointer> lessons) {
+    std::size_t bytes = 0;
+    auto& there = there_.emplace_back();
+    for (const auto& lesson : lessons) {
+        there.push_back(lesson ? 1 : 0);
+        if (lesson) bytes += lesson->bytes();
+    }
+    if (held_.size() == ids_.size() && bytes <= room_) {
+        held_.push_back(std::move(lessons));
+        room_ -= bytes;
+    }
+    ids_.push_back(expressive);
+}
+
+animation::LessonPointer LessonBook::lesson(std::size_t method, std::size_t k) const {
+    const auto l = learner_of_[method];
+    if (!there_[k][l]) return nullptr;
+    return k < held_.size() ? held_[k][l] : learners_[l]->study(reader_.read(ids_[k]));
+}
+
+namespace {
+
+/// In batches, and within a batch one face per thread: only what `keep` keeps stays, in the order of the scans.
+template <typename Take, typename Keep>
+void in_batches(std::span<const ScanId> scans, const Take& take, const Keep& keep) {
+    constexpr std::size_t batch = 16;
+    for (std::size_t begin = 0; begin < scans.size(); begin += batch) {
+        std::vector<std::invoke_result_t<Take, const ScanId&>> taken(std::min(batch, scans.size() - begin));
+        base::parallel_for(taken.size(), 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k) taken[k] = take(scans[begin + k]);
+        });
+        for (auto& one : taken) keep(one);
+    }
+}
+
+std::vector<Vector> true_motion(const PerformanceReader& reader, const modeling::Performance& own) {
+    return true_motion_on_average(reader.workspace().average(), own.neutral, *own.true_neutral,
+                                  own.true_expression->displacement_mm);
+}
+
+/// Of one AU of an expression that `performances` show.
+ActiveZone zone_of_unit(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
+                        const facs::Expression& expression, const facs::Expression& unit,
+                        std::span<const ScanId> performances, FailureList& failures) {
+    std::vector<ScanId> scans;
+    for (const auto& performance : performances)
+        if (auto id = reader.workspace().scan_of(performance.subject, unit)) scans.push_back(std::move(*id));
+    TrueZone zone(reader.workspace().average());
+    bool any = false;
+    in_batches(
+        scans,
+        [&](const ScanId& id) -> std::vector<Vector> {
+            try {
+                return true_motion(reader, reader.read(id));
+            } catch (const std::exception& e) {
+                failures.add(
+                    fmt::format("{}: takes no part in the zone of {}: {}", id.name(), expression.code(), e.what()));
+                return {};
+            }
+        },
+        [&](const std::vector<Vector>& motion_mm) {
+            if (motion_mm.empty()) return;
+            zone.add(motion_mm);
+            any = true;
+        });
+    return any ? zone.zone(unit) : active_zone_from_catalogue(unit, reader.workspace().average(), catalogue);
+}
+
+void add_zones_of_units(ActiveZone& zone, const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
+                        std::span<const ScanId> performances, FailureList& failures) {
+    const auto units = zone.expression.units();
+    if (units.size() < 2) return;
+    for (const auto& [unit, side, low_intensity] : units)
+        unite(zone, zone_of_unit(reader, catalogue, zone.expression, facs::Expression::of_units({{unit, side, false}}),
+                                 performances, failures));
+}
+
+/// What is taken from one performance before it is dropped.
+struct Taken {
+    std::optional<ScanId> id;
+    std::vector<animation::LessonPointer> lessons;
+    std::vector<Vector> true_motion_mm;
+};
+
+Taken take(const PerformanceReader& reader, const LessonBook& book, const ScanId& id, FailureList& failures) {
+    Taken taken;
+    modeling::Performance own;
+    try {
+        own = reader.read(id);
+        if (own.true_expression) taken.true_motion_mm = true_motion(reader, own);
+    } catch (const std::exception& e) {
+        failures.add(fmt::format("{}: takes part in no case: {}", id.name(), e.what()));
+        return taken;
+    }
+    taken.id = id;
+    taken.lessons = book.study(own);
+    return taken;
+}
+
+}  // namespace
+
+Cast gather_cast(const PerformanceReader& reader, const animation::Subject& subject,
+                 std::span<const ScanId> performances, std::span<const animation::MethodPointer> methods,
+                 FailureList& failures) {
+    const auto& average = reader.workspace().average();
+    Cast cast{subject.expression, {}, {}, LessonBook(reader, subject, methods, failures)};
+    TrueZone zone(average);
+    in_batches(
+        performances, [&](const ScanId& id) { return take(reader, cast.lessons, id, failures); },
+        [&](Taken& own) {
+            if (!own.id) return;
+            if (reader.has_truth()) zone.add(own.true_motion_mm);
+            cast.lessons.add(*own.id, std::move(own.lessons));
+            cast.participants.push_back(std::move(*own.id));
+        });
+    if (!reader.has_truth()) {
+        cast.zone = active_zone_from_catalogue(subject.expression, average, subject.catalogue);
+    } else if (!cast.participants.empty()) {
+        cast.zone = zone.zone(subject.expression);
+        add_zones_of_units(cast.zone, reader, subject.catalogue, performances, failures);
+    }
+    return cast;
+}
+
+}  // namespace mimik::evaluation

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "animation/method.h"
+#include "evaluation/active_zone.h"
+#include "evaluation/performance.h"
+#include "facs/facs_catalogue.h"
+
+namespace mimik::evaluation {
+
+/// What the methods have learned from every participant. Methods that take the same lessons share them. The first ones
+/// are held, up to `bytes`; the rest is studied again whenever it is asked for.
+class LessonBook {
+public:
+    /// References are kept, also to what `subject` refers to.
+    LessonBook(const PerformanceReader& reader, const animation::Subject& subject,
+               std::span<const animation::MethodPointer> methods, FailureList& failures,
+               std::size_t bytes = std::size_t{256} << 20);
+
+    /// What is learned from one performance, by every learner; from any thread. What fails is reported and stays empty.
+    [[nodiscard]] std::vector<animation::LessonPointer> study(const modeling::Performance& performance) const;
+    /// The lessons of the next participant, in the order of the participants.
+    void add(const database::ScanId& expressive, std::vector<animation::LessonPointer> lessons);
+
+    /// Whether this method can be learned at all; if not, that was reported.
+    [[nodiscard]] bool can_learn(std::size_t method) const { return learners_[learner_of_[method]] != nullptr; }
+    [[nodiscard]] const animation::Learner& learner(std::size_t method) const {
+        return *learners_[learner_of_[method]];
+    }
+    /// Of participant k for a method; empty if there is none. From any thread, after the last add().
+    [[nodiscard]] animation::LessonPointer lesson(std::size_t method, std::size_t k) const;
+    [[nodiscard]] std::size_t held() const { return held_.size(); }  ///< participants
+
+private:
+    const PerformanceReader& reader_;
+    std::string expression_;
+    FailureList& failures_;
+    std::size_t room_;
+    std::vector<std::size_t> learner_of_;                              // per method
+    std::vector<std::unique_ptr<const animation::Learner>> learners_;  // null: it cannot be learned
+    std::vector<std::string> learner_names_;                           // of the first method that takes its lessons
+    std::vector<char> takes_lessons_;                                  // per learner
+    std::vector<std::vector<animation::LessonPointer>> held_;          // per participant, per learner
+    std::vector<std::vector<char>> there_;                             // likewise, also of those that are not held
+    std::vector<database::ScanId> ids_;
+};
+
+/// All who show one expression, and what is the same for all their cases.
+struct Cast {
+    facs::Expression expression;
+    std::vector<database::ScanId> participants;  ///< the expressive scans: source and target in turn
+    ActiveZone zone;
+    LessonBook lessons;
+};
+
+/// Reads `performances` a few at a time, studies them and finds the zone. With a truth, an expression of several AUs
+/// (an emotion) has the union of its own zone and of its AUs': of each the true one over the same subjects' scans of
+/// that AU alone, or the one that the catalogue draws where nobody shows it. Who cannot be read takes no part, who
+/// cannot be studied is no source of that method; both are added to `failures`.
+[[nodiscard]] Cast gather_cast(const PerformanceReader& reader, const animation::Subject& subject,
+                               std::span<const database::ScanId> performances,
+                               std::span<const animation::MethodPointer> methods, FailureList& failures);
+
+}  // namespace mimik::evaluation

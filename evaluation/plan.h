@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "animation/method.h"
+#include "facs/facs_catalogue.h"
+#include "preprocessing/workspace.h"
+
+namespace mimik::evaluation {
+
+struct ExperimentOptions {
+    std::vector<facs::Expression> expressions = thesis_expressions();
+    std::vector<animation::MethodPointer> methods = {
+        animation::method_by_name("thesis"), animation::method_by_name("default"), animation::method_by_name("mean")};
+    bool reference = true;   ///< true fields beside them, where the database has a truth
+    bool whole_face = true;  ///< score the face outside the zone, too
+    int max_sources = 0;     ///< per target, the next ones in the list after it; 0 = all other subjects
+
+    void check() const;  ///< throws InputError
+    /// AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 on the left.
+    [[nodiscard]] static std::vector<facs::Expression> thesis_expressions();
+};
+
+/// The scans of one expression, one per subject that shows it.
+struct PlannedExpression {
+    facs::Expression expression;
+    std::vector<database::ScanId> performances;
+};
+
+/// What an experiment will do, in a fixed order: every expression, in it every target, in it every method, in it every
+/// source. A unit of work is one target of one expression.
+struct ExperimentPlan {
+    std::vector<std::string> subjects;  ///< those who may be shown
+    std::vector<PlannedExpression> expressions;
+    std::vector<animation::MethodPointer> methods;  ///< "nothing" first, then those asked for, then the true fields
+    bool whole_face = true;
+    std::size_t max_sources = 0;  ///< 0 = all
+
+    [[nodiscard]] std::size_t units() const;
+    /// The participants whose performances are learned from for one target: the ring that begins after it.
+    [[nodiscard]] std::vector<std::size_t> sources(std::size_t target, std::size_t participants) const;
+};
+
+/// @param truth  whether the database has one
+/// @throws InputError for bad options, an expression that the catalogue lacks or that fewer than 3 subjects show.
+[[nodiscard]] ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace,
+                                             const facs::FacsCatalogue& catalogue, const ExperimentOptions& options,
+                                             bool truth);
+
+/// Transfers and seconds on one core, from figures measured once.
+struct ExperimentEstimate {
+    std::size_t transfers = 0;
+    double core_seconds = 0;
+};
+[[nodiscard]] ExperimentEstimate estimate(const ExperimentPlan& plan);
+
+}  // namespace mimik::evaluation

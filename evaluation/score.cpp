@@ -1,0 +1,108 @@
+#include "evaluation/score.h"
+
+#include "geometry/statistics.h"
+
+namespace mimik::evaluation {
+namespace {
+
+/// The numbers of one case that scores are made of.
+struct CaseNumbers {
+    std::optional<double> zone_mm, face_mm, true_mm, step_mm;
+    double left_out = 0;
+
+    void take(const CaseRow& row) {
+        if (row.estimator == "surface_distance" && row.metric == "mean")
+            (row.region == "zone" ? zone_mm : face_mm) = row.value;
+        else if (row.estimator == "true_distance" && row.metric == "mean")
+            true_mm = row.value;
+        else if (row.metric == "largest_step")
+            step_mm = row.value;
+        else if (row.metric == "left_out")
+            left_out = row.value.value_or(0);
+    }
+};
+
+/// A mean of numbers that are not known of every case.
+struct Sum {
+    double total = 0;
+    std::size_t count = 0;
+
+    void add(const std::optional<double>& value) {
+        if (!value) return;
+        total += *value;
+        ++count;
+    }
+    [[nodiscard]] std::optional<double> mean() const {
+        return count > 0 ? std::optional(total / static_cast<double>(count)) : std::nullopt;
+    }
+};
+
+std::optional<double> explained(double error, double nothing) {
+    return nothing > 0 ? std::optional(1 - error / nothing) : std::nullopt;
+}
+
+/// The cases of one method on one expression.
+class Sums {
+public:
+    void add(const CaseNumbers& own, const CaseNumbers& nothing) {
+        if (!own.zone_mm || !nothing.zone_mm) return;
+        ++counts_.cases;
+        error_.add(own.zone_mm);
+        nothing_.add(nothing.zone_mm);
+        whole_.add(own.face_mm);
+        whole_nothing_.add(nothing.face_mm);
+        true_error_.add(own.true_mm);
+        true_nothing_.add(nothing.true_mm);
+        step_.add(own.step_mm);
+        counts_.left_out_vertices += static_cast<std::size_t>(own.left_out);
+        if (const auto share = explained(*own.zone_mm, *nothing.zone_mm)) explained_.push_back(*share);
+        if (*own.zone_mm > *nothing.zone_mm) ++counts_.worse_than_nothing;
+    }
+
+    [[nodiscard]] Score score() const {
+        Score score = counts_;
+        score.explained = explained(error_.total, nothing_.total);
+        if (!explained_.empty()) score.explained_median = geometry::median(explained_);
+        score.explained_whole = explained(whole_.total, whole_nothing_.total);
+        score.error_mm = error_.mean();
+        score.nothing_mm = nothing_.mean();
+        score.true_error_mm = true_error_.mean();
+        score.nothing_true_mm = true_nothing_.mean();
+        score.largest_step_mm = step_.mean();
+        return score;
+    }
+
+private:
+    Score counts_;
+    Sum error_, nothing_, whole_, whole_nothing_, true_error_, true_nothing_, step_;
+    std::vector<double> explained_;
+};
+
+}  // namespace
+
+ScoreTable scores_of(const std::function<void(const std::function<void(const CaseRow&)>&)>& read) {
+    std::map<std::string, std::map<std::string, Sums>> sums;
+    CaseKey key;
+    CaseNumbers numbers, nothing;
+    bool any = false;
+    const auto close_case = [&] {
+        if (!any) return;
+        if (key.method == "nothing") nothing = numbers;
+        sums[key.method][key.expression].add(numbers, nothing);
+    };
+    read([&](const CaseRow& row) {
+        if (any && row.key == key) return numbers.take(row);
+        close_case();
+        key = row.key;
+        numbers = {};
+        any = true;
+        numbers.take(row);
+    });
+    close_case();
+    ScoreTable table;
+    for (const auto& [method, expressions] : sums)
+        for (const auto& [expression, sum] : expressions) table[method][expression] = sum.score();
+    return table;
+}
+
+}  // namespace mimik::evaluation

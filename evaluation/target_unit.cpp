@@ -1,0 +1,145 @@
+#include "evaluation/target_unit.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "evaluation/estimator.h"
+
+namespace mimik::evaluation {
+
+using animation::Method;
+using animation::PreparedTarget;
+using animation::SourceKind;
+using geometry::DisplacementField;
+
+namespace {
+
+/// One target while its cases are scored.
+class TargetRun {
+public:
+    TargetRun(const PerformanceReader& reader, const ExperimentPlan& plan, const Cast& cast, std::size_t t,
+              FailureList& failures)
+        : plan_(plan),
+          cast_(cast),
+          failures_(failures),
+          own_(reader.read(cast.participants[t])),
+          prepared_(own_.neutral, own_.true_neutral ? &*own_.true_neutral : nullptr),
+          ring_(plan.sources(t, cast.participants.size())),
+          scored_(scored_target(prepared_.surface(), own_.expressive.grid, own_.neutral_from_expressive,
+                                carry_zone(cast.zone, reader.workspace().average(), own_.neutral))),
+          still_(DisplacementField::still(prepared_.surface().size())) {
+        scored_.whole_face = plan.whole_face;
+        if (prepared_.has_truth())
+            for (const auto v : scored_.vertices)
+                scored_.true_displacement_mm.push_back(
+                    prepared_.material_points().at(own_.true_expression->displacement_mm, v));
+    }
+
+    std::vector<CaseRow> run() {
+        for (std::size_t m = 0; m < plan_.methods.size(); ++m) score_method(m);
+        return std::move(rows_);
+    }
+
+private:
+    void score_method(std::size_t m) {
+        const auto& method = *plan_.methods[m];
+        if (method.needs() == SourceKind::one_source) {
+            auto ascending = ring_;
+            std::sort(ascending.begin(), ascending.end());
+            for (const auto s : ascending) score_case(m, cast_.participants[s].subject, {s});
+        } else {
+            score_case(m, method.needs() == SourceKind::none ? "" : "mean",
+                       method.needs() == SourceKind::none ? std::vector<std::size_t>() : ring_);
+        }
+    }
+
+    void score_case(std::size_t m, const std::string& source, const std::vector<std::size_t>& from) {
+        const auto& method = *plan_.methods[m];
+        const CaseKey key{source, own_.neutral.id.subject, cast_.expression.code(), method.name()};
+        const auto found = field_of(m, from, key);
+        measure(key, found.field ? *found.field : still_, found.reason);
+        // A crack is a fault of a method; a true field has none of its own.
+        if (!found.field || method.needs() == SourceKind::none || method.needs_truth()) return;
+        const auto extent = geometry::field_extent(prepared_.surface(), found.field->mm);
+        rows_.push_back({key, "field", "face", "largest_step", extent.largest_neighbour_step_mm, "mm", ""});
+    }
+
+    struct Found {
+        std::optional<DisplacementField> field;
+        std::string reason;  ///< why there is none
+    };
+
+    Found field_of(std::size_t m, const std::vector<std::size_t>& from, const CaseKey& key) {
+        if (!cast_.lessons.can_learn(m)) return {std::nullopt, "no model of any source"};  // reported when it was tried
+        try {
+            std::vector<animation::LessonPointer> lessons;
+            for (const auto s : from)
+                if (auto lesson = cast_.lessons.lesson(m, s)) lessons.push_back(std::move(lesson));
+            if (plan_.methods[m]->needs() == SourceKind::one_source && lessons.empty())
+                return {std::nullopt, "no model of this source"};  // reported when it was studied
+            return {cast_.lessons.learner(m).learn(lessons)->on(prepared_), ""};
+        } catch (const std::exception& e) {
+            failures_.add(
+                fmt::format("{}: {} -> {} by {}: {}", key.expression, key.source, key.target, key.method, e.what()));
+            return {std::nullopt, e.what()};
+        }
+    }
+
+    void measure(const CaseKey& key, const DisplacementField& field, const std::string& no_answer) {
+        const JudgedFace judged{scored_, prepared_.surface(), field};
+        const auto reason = no_answer.empty() ? std::string() : "scored as doing nothing: " + no_answer;
+        for (const auto& estimator : known_estimators())
+            for (const auto& found : estimator->measure(judged))
+                rows_.push_back({key, estimator->name(), found.region, found.metric, found.value, found.unit, reason});
+    }
+
+    const ExperimentPlan& plan_;
+    const Cast& cast_;
+    FailureList& failures_;
+    modeling::Performance own_;
+    PreparedTarget prepared_;
+    std::vector<std::size_t> ring_;  // the sources, as means take them
+    ScoredTarget scored_;
+    DisplacementField still_;
+    std::vector<CaseRow> rows_;
+};
+
+}  // namespace
+
+std::vector<CaseRow> score_target(const PerformanceReader& reader, const ExperimentPlan& plan, const Cast& cast,
+                                  std::size_t t, FailureList& failures) {
+    try {
+        return TargetRun(reader, plan, cast, t, failures).run();
+    } catch (const std::exception& e) {
+        failures.add(fmt::format("{}: no case with target {}: {}", cast.expression.code(), cast.participants[t].subject,
+                                 e.what()));
+        return {};
+    }
+}
+
+void in_order(std::size_t count, const std::function<std::vector<CaseRow>(std::size_t)>& work,
+              const std::function<void(std::size_t, const std::vector<CaseRow>&)>& take) {
+    std::atomic<std::size_t> next = 0;
+    std::mutex mutex;
+    std::map<std::size_t, std::vector<CaseRow>> waiting;
+    std::size_t taken = 0;
+    base::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            // Whichever piece the scheduler begins, it does the first target that nobody has begun.
+            const std::size_t t = next.fetch_add(1);
+            auto rows = work(t);
+            const std::scoped_lock lock(mutex);
+            waiting.emplace(t, std::move(rows));
+            for (auto first = waiting.begin(); first != waiting.end() && first->first == taken;
+                 first = waiting.erase(first), ++taken)
+                take(first->first, first->second);
+        }
+    });
+}
+
+}  // namespace mimik::evaluation

@@ -1,0 +1,90 @@
+#include "evaluation/case_store.h"
+
+#include <fstream>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/errors.h"
+#include "base/file.h"
+#include "tests/database/temporary_folder.h"
+
+namespace mimik::evaluation {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const CaseRow whole = {{"bs001", "bs000", "12L", "default", 0.5}, "surface_distance", "zone", "mean", 0.1, "mm", ""};
+const CaseRow odd = {{"", "a, b", "SNEER", "own"},       "field", "face", "left_out", std::nullopt, "vertices",
+                     "scored as doing nothing: \"x\", y"};
+
+std::vector<CaseRow> rows_of(const CaseStore& store) {
+    std::vector<CaseRow> rows;
+    store.read([&](const CaseRow& row) { rows.push_back(row); });
+    return rows;
+}
+
+TEST(CaseStore, gives_back_what_was_appended_to_the_last_digit_and_in_that_order) {
+    CaseStore store;
+    auto digits = whole;
+    digits.value = 0.1 + 0.2;
+    store.append("12L bs000", std::vector{whole, digits});
+    store.append("SNEER a, b", std::vector{odd});
+    EXPECT_THAT(rows_of(store), ElementsAre(whole, digits, odd));
+    EXPECT_TRUE(store.has("12L bs000"));
+    EXPECT_FALSE(store.has("12L bs001"));
+    EXPECT_EQ(store.units(), 2U);
+    EXPECT_THROW(store.append("12L bs000", {}), InputError);
+}
+
+TEST(CaseStore, takes_its_name_when_it_is_finished_and_leaves_nothing_else) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "deep" / "cases.csv";
+    {
+        CaseStore store(file);
+        store.append("unit", std::vector{whole});
+        EXPECT_FALSE(std::filesystem::exists(file));
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(file.parent_path()));  // an unfinished one goes with its store
+    CaseStore store(file);
+    store.append("unit", std::vector{whole});
+    store.finish();
+    std::vector<CaseRow> rows;
+    EXPECT_THAT(read_case_rows(file, [&](const CaseRow& row) { rows.push_back(row); }), ElementsAre("unit"));
+    EXPECT_THAT(rows, ElementsAre(whole));
+    EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
+}
+
+TEST(CaseStore, that_was_cut_short_or_damaged_counts_up_to_the_last_whole_unit) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "cases.csv";
+    CaseStore store(file);
+    store.append("first", std::vector{whole, odd});
+    store.append("second", std::vector{whole});
+    store.finish();
+    const auto text = base::read_text(file);
+    const auto second = text.find("bs001", text.find("# unit first"));
+    auto damaged = text;
+    damaged[second] = 'x';
+    for (const auto& broken : {text.substr(0, text.size() - 5), text.substr(0, second + 3), damaged}) {
+        base::write_atomically(file, broken);
+        std::vector<CaseRow> rows;
+        EXPECT_THAT(read_case_rows(file, [&](const CaseRow& row) { rows.push_back(row); }), ElementsAre("first"));
+        EXPECT_THAT(rows, ElementsAre(whole, odd));
+    }
+    base::write_atomically(file, "something else\n");
+    EXPECT_THAT(database::message_of<InputError>([&] { (void)read_case_rows(file, [](const CaseRow&) {}); }),
+                HasSubstr("is no table of cases"));
+}
+
+TEST(CaseStore, that_cannot_be_written_is_refused_by_its_name) {
+    const database::TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "cases.csv.part");
+    EXPECT_THAT(database::message_of<InputError>([&] { const CaseStore store(folder.path() / "cases.csv"); }),
+                HasSubstr("cases.csv.part: cannot be written"));
+}
+
+}  // namespace
+}  // namespace mimik::evaluation

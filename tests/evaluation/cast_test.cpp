@@ -1,0 +1,169 @@
+#include "evaluation/cast.h"
+
+#include <atomic>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/errors.h"
+#include "base/file.h"
+#include "tests/database/temporary_folder.h"
+#include "tests/support/analytic_truth.h"
+#include "tests/support/analytic_workspace_files.h"
+#include "tests/support/expressions.h"
+
+namespace mimik::evaluation {
+namespace {
+
+class CastTest : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = new database::TemporaryFolder;
+        test::write_analytic_truth(folder_->path() / "db");
+        workspace_ = new preprocessing::Workspace(test::analytic_workspace(folder_->path()));
+    }
+    static void TearDownTestSuite() {
+        delete workspace_;
+        delete folder_;
+    }
+    static database::ScanId smile(int subject) {
+        return *workspace_->scan_of("bs00" + std::to_string(subject), test::expression("12"));
+    }
+    static database::TemporaryFolder* folder_;
+    static preprocessing::Workspace* workspace_;
+};
+
+database::TemporaryFolder* CastTest::folder_ = nullptr;
+preprocessing::Workspace* CastTest::workspace_ = nullptr;
+
+/// Keeps the true motion alone, and counts how often it is asked for.
+class CountingLearner : public animation::Learner {
+public:
+    explicit CountingLearner(std::atomic<int>& studied) : studied_(studied) {}
+    [[nodiscard]] animation::LessonPointer study(const modeling::Performance& performance) const override {
+        ++studied_;
+        return true_field_->study(performance);
+    }
+    [[nodiscard]] std::unique_ptr<const animation::Transfer> learn(
+        std::span<const animation::LessonPointer> lessons) const override {
+        return true_field_->learn(lessons);
+    }
+
+private:
+    std::atomic<int>& studied_;
+    std::unique_ptr<const animation::Learner> true_field_ =
+        animation::method_by_name("true-field")->learner({smile_expression, average, facs::builtin_catalogue()});
+    static inline const facs::Expression smile_expression = test::expression("12");
+    static inline const preprocessing::AverageFace average = {};
+};
+
+class CountingMethod : public animation::Method {
+public:
+    CountingMethod(std::string name, std::atomic<int>& studied) : name_(std::move(name)), studied_(studied) {}
+    [[nodiscard]] std::string name() const override { return name_; }
+    [[nodiscard]] animation::SourceKind needs() const override { return animation::SourceKind::one_source; }
+    [[nodiscard]] std::string lessons_key() const override { return "counted"; }
+    [[nodiscard]] std::unique_ptr<const animation::Learner> learner(const animation::Subject&) const override {
+        return std::make_unique<CountingLearner>(studied_);
+    }
+
+private:
+    std::string name_;
+    std::atomic<int>& studied_;
+};
+
+TEST_F(CastTest, methods_that_take_the_same_lessons_share_them_and_what_is_not_held_is_studied_again) {
+    const PerformanceReader reader(*workspace_);
+    std::atomic<int> studied = 0;
+    const std::vector<animation::MethodPointer> methods = {std::make_shared<CountingMethod>("one", studied),
+                                                           std::make_shared<CountingMethod>("other", studied)};
+    FailureList failures;
+    const auto smile_expression = test::expression("12");
+    const animation::Subject subject{smile_expression, workspace_->average(), facs::builtin_catalogue()};
+    LessonBook roomy(reader, subject, methods, failures);
+    const auto lesson_bytes = roomy.study(reader.read(smile(0))).front()->bytes();
+    LessonBook narrow(reader, subject, methods, failures, lesson_bytes);  // room for one
+    studied = 0;
+    for (auto* book : {&roomy, &narrow})
+        for (int k = 0; k < 3; ++k) book->add(smile(k), book->study(reader.read(smile(k))));
+    EXPECT_EQ(studied, 6);  // once for both methods
+    EXPECT_EQ(roomy.held(), 3U);
+    EXPECT_EQ(narrow.held(), 1U);
+    EXPECT_EQ(roomy.lesson(0, 2), roomy.lesson(1, 2));
+    studied = 0;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(narrow.lesson(0, k)->bytes(), roomy.lesson(0, k)->bytes()) << k;
+    EXPECT_EQ(studied, 2);
+}
+
+TEST_F(CastTest, the_true_smile_of_the_analytic_faces_is_that_of_the_closed_form) {
+    // The analytic neutral has no micro-expression.
+    EXPECT_EQ(PerformanceReader(*workspace_).read(smile(0)).true_expression->displacement_mm,
+              test::analytic_truth("bs000_LFAU_12_0", {test::analytic_scales[0], test::analytic_smile_mm},
+                                   test::analytic_pose(1))
+                  .displacement_mm);
+}
+
+TEST_F(CastTest, of_more_than_one_batch_is_in_the_order_of_the_scans) {
+    const PerformanceReader reader(*workspace_);
+    const std::vector methods = {animation::method_by_name("default"), animation::method_by_name("mean")};
+    std::vector<database::ScanId> scans;
+    for (int k = 0; k < 20; ++k) scans.push_back(smile(k % 3));
+    FailureList failures;
+    const auto smile_expression = test::expression("12");
+    const auto cast = gather_cast(reader, {smile_expression, workspace_->average(), facs::builtin_catalogue()}, scans,
+                                  methods, failures);
+    EXPECT_TRUE(failures.sorted().empty());
+    EXPECT_EQ(cast.participants, scans);
+    EXPECT_EQ(cast.lessons.held(), scans.size());
+    for (std::size_t k = 0; k < scans.size(); ++k) {
+        ASSERT_TRUE(cast.lessons.lesson(0, k));
+        EXPECT_EQ(cast.lessons.lesson(0, k), cast.lessons.lesson(1, k));  // shared with the first
+    }
+}
+
+/// Three subjects whose HAPPY is the smile of their left half alone: AU12 moves both halves, nobody shows AU6.
+TEST(CastOfEmotion, has_the_zones_of_its_units_beside_its_own) {
+    const database::TemporaryFolder folder;
+    const auto db = folder.path() / "db";
+    test::write_analytic_truth(db);
+    auto document = nlohmann::json::parse(base::read_text(db / "truth" / "truth.json"));
+    for (int k = 0; k < 3; ++k) {
+        const auto name = "bs00" + std::to_string(k) + "_E_HAPPY_0";
+        const test::AnalyticFace shape{test::analytic_scales[k], test::analytic_smile_mm};
+        test::write_analytic_scan(db, name, shape, test::analytic_pose(k));
+        auto truth = test::analytic_truth(name, shape, test::analytic_pose(k));
+        for (std::size_t v = 0; v < truth.vertices_mm.size(); ++v)
+            if ((truth.scanner_from_head.inverse() * truth.vertices_mm[v]).x() < 0) truth.displacement_mm[v].setZero();
+        database::write_true_scan(db / "truth", truth);
+        document["scans"].push_back(name);
+    }
+    base::write_atomically(db / "truth" / "truth.json", document.dump());
+    const auto workspace = test::analytic_workspace(folder.path());
+    const PerformanceReader reader(workspace);
+    FailureList failures;
+    const auto zone_of = [&](const std::string& text) {
+        const auto expression = test::expression(text);
+        std::vector<database::ScanId> scans;
+        for (const auto& subject : workspace.subjects()) scans.push_back(*workspace.scan_of(subject, expression));
+        return gather_cast(reader, {expression, workspace.average(), facs::builtin_catalogue()}, scans, {}, failures)
+            .zone.active;
+    };
+    const auto happy = zone_of("HAPPY"), smile = zone_of("12");
+    const auto& average = workspace.average();
+    const auto cheeks = active_zone_from_catalogue(test::expression("6"), average, facs::builtin_catalogue()).active;
+    ASSERT_EQ(happy.size(), smile.size());
+    std::size_t only_smile = 0, only_cheeks = 0;
+    for (std::size_t v = 0; v < happy.size(); ++v) {
+        EXPECT_EQ(happy[v] != 0, smile[v] != 0 || cheeks[v] != 0) << v;  // its own zone lies inside that of AU12
+        if (!happy[v]) continue;
+        if (!cheeks[v] && average.grid.vertices_mm[v].x() < -5) ++only_smile;
+        if (!smile[v]) ++only_cheeks;
+    }
+    EXPECT_GT(only_smile, 20U);  // a corner's bump is 24 mm wide, the grid's cells 2 to 3 mm
+    EXPECT_GT(only_cheeks, 20U);
+    EXPECT_TRUE(failures.sorted().empty());
+}
+
+}  // namespace
+}  // namespace mimik::evaluation

@@ -1,0 +1,123 @@
+#include "report/score_table.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/experiment_reports.h"
+#include "tests/support/expressions.h"
+
+namespace mimik::report {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+evaluation::Score score(double explained) {
+    evaluation::Score score;
+    score.explained = score.explained_median = score.explained_whole = explained;
+    score.error_mm = 2 * (1 - explained);
+    score.nothing_mm = 2;
+    score.true_error_mm = 3 * (1 - explained);
+    score.nothing_true_mm = 3;
+    score.largest_step_mm = 0.5;
+    score.cases = 6;
+    score.worse_than_nothing = 3;
+    score.left_out_vertices = 1;
+    return score;
+}
+
+/// AU 12 by the default, which has a crack, and by the true field, which has none.
+evaluation::ExperimentReport smile_report() {
+    evaluation::ExperimentReport report;
+    report.subjects = {"bs000", "bs001", "bs002"};
+    report.expressions = test::expressions({"12"});
+    report.zones = "truth";
+    report.alignment = "true pose";
+    report.truth = evaluation::TruthOrigin{7, "some face model", {{"identity", 0.8}}};
+    report.nothing = {"doing nothing", animation::SourceKind::none, false, {{"12", score(0)}}, 0.0, 0.0, 0.0, {}};
+    report.rows = {
+        {"default", animation::SourceKind::one_source, false, {{"12", score(0.25)}}, 0.25, 0.25, 0.25, 0.5},
+        {"true field, mean", animation::SourceKind::all_but_target, true, {{"12", score(0.5)}}, 0.5, 0.5, 0.5, {}}};
+    report.rows[1].per_expression.at("12").largest_step_mm.reset();
+    return report;
+}
+
+TEST(ScoreTables, hold_what_the_report_holds) {
+    const auto report = smile_report();
+    const auto document = json::parse(to_json(report));
+    EXPECT_EQ(document.at("schema"), 1);
+    ASSERT_EQ(document.at("rows").size(), 2U);
+    const auto& row = document.at("rows").at(0);
+    EXPECT_EQ(row.at("method"), "default");
+    EXPECT_EQ(row.at("kind"), "one source");
+    EXPECT_EQ(row.at("share"), 0.5);
+    EXPECT_EQ(row.at("expressions").at("12").at("explained"), 0.25);
+    EXPECT_EQ(row.at("expressions").at("12").at("nothing_true_mm"), 3);
+    EXPECT_EQ(document.at("truth"),
+              (json{{"seed", 7}, {"face_model", "some face model"}, {"variances", {{"identity", 0.8}}}}));
+    const auto csv = to_csv(report);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+    EXPECT_THAT(csv, HasSubstr("\"default\",one source,0,12,0.250000,"));
+    EXPECT_THAT(csv, HasSubstr("\"true field, mean\",mean,1,12,"));
+    const auto markdown = to_markdown(report);
+    EXPECT_THAT(markdown, HasSubstr("| AU12 |"));
+    EXPECT_THAT(markdown, HasSubstr("| default | one source | 0.25 | **0.250** | 0.250 | 0.50 | 0.25 | 50.0 % of 6 |"));
+    EXPECT_THAT(markdown, HasSubstr("(distance to the real scan / to the true position of the same skin point):"));
+    EXPECT_THAT(markdown, HasSubstr("| doing nothing | | 2.00 / 3.00 |"));
+    EXPECT_THAT(markdown, HasSubstr("| *true field, mean* | mean | 0.50 |"));
+}
+
+TEST(ScoreTables, leave_blank_what_is_not_known_and_never_say_zero) {
+    auto report = smile_report();
+    report.rows[0].per_expression["12"] = {};  // an expression without a case
+    for (auto* number : {&report.rows[0].explained, &report.rows[0].explained_median, &report.rows[0].explained_whole,
+                         &report.rows[0].share})
+        number->reset();
+    const auto row = json::parse(to_json(report)).at("rows").at(0);
+    for (const auto* key : {"explained", "explained_median", "explained_whole_face", "share"})
+        EXPECT_TRUE(row.at(key).is_null()) << key;
+    for (const auto* key : {"explained", "error_mm", "true_error_mm", "largest_step_mm"})
+        EXPECT_TRUE(row.at("expressions").at("12").at(key).is_null()) << key;
+    EXPECT_EQ(row.at("expressions").at("12").at("cases"), 0);
+    EXPECT_THAT(to_csv(report), HasSubstr("\"default\",one source,0,12,,,,,,,,,0,0,0\n"));
+    EXPECT_THAT(to_markdown(report), HasSubstr("| default | one source |  |  |  |  |  | 0.0 % of 0 |"));
+}
+
+TEST(ScoreTables, of_a_true_field_have_no_largest_step) {
+    const auto document = json::parse(to_json(smile_report()));
+    for (const auto& row : document.at("rows"))
+        EXPECT_EQ(row.at("expressions").at("12").at("largest_step_mm").is_null(), row.at("reference"));
+    EXPECT_THAT(to_csv(smile_report()), HasSubstr(",,6,3,1\n"));
+}
+
+TEST(ScoreTables, promise_one_distance_where_no_truth_is_known_and_list_the_failures) {
+    auto report = smile_report();
+    for (auto* row : {&report.nothing, &report.rows[0], &report.rows[1]}) {
+        row->per_expression.at("12").true_error_mm.reset();
+        row->per_expression.at("12").nothing_true_mm.reset();
+    }
+    report.failures = {"bs001_LFAU_12_0: takes part in no case"};
+    const auto markdown = to_markdown(report);
+    EXPECT_THAT(markdown, HasSubstr("Mean error in mm (distance to the real scan):"));
+    EXPECT_THAT(markdown, HasSubstr("| doing nothing | | 2.00 |"));
+    EXPECT_THAT(markdown, HasSubstr("1 failure(s)"));
+    EXPECT_THAT(markdown, HasSubstr("- bs001_LFAU_12_0: takes part in no case\n"));
+}
+
+TEST(ScoreTables, say_in_json_alone_whether_the_true_fields_are_those_of_a_usual_database) {
+    const auto report = test::report_of(0.468, 0.600, 13);
+    const auto document = json::parse(to_json(report));
+    EXPECT_EQ(document.at("fit"), true);
+    EXPECT_EQ(document.at("reference_bands").at(1),
+              (json{{"kind", "mean"}, {"explained", 0.6}, {"low", 0.55}, {"high", 0.65}, {"inside", true}}));
+    EXPECT_EQ(json::parse(to_json(test::report_of(0.54, 0.600, 13))).at("fit"), false);
+    EXPECT_TRUE(json::parse(to_json(smile_report())).at("fit").is_null());
+    EXPECT_THAT(to_markdown(report), Not(HasSubstr("Fit to be scored on")));
+}
+
+}  // namespace
+}  // namespace mimik::report

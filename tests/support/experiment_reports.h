@@ -1,0 +1,31 @@
+#pragma once
+
+#include <tuple>
+
+#include "evaluation/experiment.h"
+
+namespace mimik::test {
+
+/// The nine expressions by a method and by the true fields of `sources` sources on 12 targets.
+inline evaluation::ExperimentReport report_of(double one, double mean, std::size_t sources) {
+    evaluation::ExperimentReport report;
+    report.expressions = evaluation::ExperimentOptions::thesis_expressions();
+    report.truth = evaluation::TruthOrigin{7, "some face model", {{"identity", 0.8}}};
+    for (const auto& [kind, explained, reference] : {std::tuple(animation::SourceKind::one_source, 0.3, false),
+                                                     std::tuple(animation::SourceKind::one_source, one, true),
+                                                     std::tuple(animation::SourceKind::all_but_target, mean, true)}) {
+        evaluation::MethodScores row;
+        row.method = reference ? "true field" : "default";
+        row.kind = kind;
+        row.reference = reference;
+        row.explained = explained;
+        for (const auto& expression : report.expressions)
+            row.per_expression[expression.code()].cases =
+                kind == animation::SourceKind::all_but_target ? 12 : 12 * sources;
+        report.rows.push_back(row);
+    }
+    report.nothing = report.rows.front();
+    return report;
+}
+
+}  // namespace mimik::test
