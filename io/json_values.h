@@ -10,6 +10,7 @@
 #include "base/errors.h"
 #include "base/fields.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "geometry/landmarks.h"
 #include "geometry/types.h"
 
@@ -94,7 +95,7 @@ Enum enum_from_json(const nlohmann::json& value) {
         if (known == word) return static_cast<Enum>(k);
         if (words.find(known) == std::string::npos) words += (words.empty() ? "" : ", ") + known;
     }
-    throw InputError(shown(value) + " is none of " + words);
+    throw InputError(base::in_quotes(word) + " is none of " + words);
 }
 
 /// The fields of an options struct (base/fields.h), by name; enums as words.
