@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+namespace mimik::geometry {
+
+/// The value in the middle; of an even number of values the upper one of the two there; 0 of none. Give no NaN.
+[[nodiscard]] double median(std::vector<double> values);
+
+/// The value below which the share `q` of the values lies, linear between the two next to it: 0 the smallest, 1 the
+/// largest. @throws InputError for no value, a NaN, or a share outside 0 to 1.
+[[nodiscard]] double quantile(std::vector<double> values, double q);
+
+}  // namespace mimik::geometry
