@@ -8,13 +8,15 @@ borrow_workspace
 for name in scores.md scores.csv scores.json cases.csv; do [ -s "scores/$name" ] || fail "scores/$name is not there"; done
 cmp scores.json scores/scores.json
 claim "scores are written as text, table and JSON, and JSON is what is printed"
-# No comma stands in a subject, an expression or a method: a row is split at every comma that is not within quotes.
+# A comment line ends each unit of work, an expression of a target. No comma stands in a subject, an expression or a
+# method: a row is split at every comma that is not within quotes.
 awk '
   { row = $0; gsub(/"([^"]|"")*"/, "", row); columns = gsub(/,/, "", row) }
+  /^#/ { units++; next }
   NR == 1 { wanted = columns; if ($0 !~ /(^|,)source,/ || $0 !~ /,target,/ || $0 !~ /,metric,/ || $0 !~ /,value(,|$)/) bad = 1 }
   NR > 1 && columns != wanted { print FILENAME ":" NR ": " $0; bad = 1 }
   NR > 1 && seen[$0]++ { print FILENAME ":" NR ": twice: " $0; bad = 1 }
-  END { exit bad || NR < 2 }' scores/cases.csv || { head -n 5 scores/cases.csv; fail "rows of cases.csv"; }
+  END { exit bad || NR < 2 || units != 6 }' scores/cases.csv || { head -n 5 scores/cases.csv; fail "rows of cases.csv"; }
 for pair in bs000,bs001 bs001,bs000 bs002,bs000; do grep -q "$pair" scores/cases.csv || fail "no row of $pair"; done
 claim "every case has its rows: a source on a target, a metric, a value"
 

@@ -12,7 +12,7 @@ constexpr double spacing_mm = 2.0;
 
 // Not symmetric top to bottom: turned by 180 degrees about z it must not lie on itself.
 double height_mm(double x, double y) {
-    const double dome = 60 * (1 - (x / 75) * (x / 75) - ((y + 20) / 110) * ((y + 20) / 110));
+    const double dome = 45 * (1 - (x / 75) * (x / 75) - ((y + 20) / 110) * ((y + 20) / 110));
     return dome + 18 * std::exp(-(x * x) / 128 - (y * y) / 288);  // the nose: 18 mm high at the origin
 }
 

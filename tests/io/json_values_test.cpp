@@ -135,7 +135,7 @@ TEST(Fields, a_missing_field_and_one_of_another_kind_are_refused_by_the_way_to_i
     EXPECT_THAT(error("on", 1), StartsWith("on: type must be boolean"));
     EXPECT_THAT(error("limit_mm", "wide"), StartsWith("limit_mm: type must be number"));
     EXPECT_THAT(error("inner", {{"width", 1}}), StartsWith("inner: width_mm: key 'width_mm' not found"));
-    EXPECT_EQ(error("colour", "blue"), "colour: \"blue\" is none of red, green");
+    EXPECT_EQ(error("colour", "blue"), "colour: 'blue' is none of red, green");
     EXPECT_THAT(error("colour", 0), StartsWith("colour: type must be string"));
 }
 
