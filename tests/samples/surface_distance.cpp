@@ -3,6 +3,8 @@
 #include "tests/support/analytic_face.h"
 
 // [sample]
+#include <algorithm>
+
 #include "evaluation/surface_distance.h"
 
 using namespace mimik;
