@@ -6,8 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include <fmt/format.h>
-
 namespace mimik::base {
 
 /// Tells one content from another, the same on every machine: FNV-1a, 64 bits. No defence against people who want two
@@ -22,7 +20,7 @@ public:
         add(std::string_view(bytes.data(), bytes.size()));
     }
     [[nodiscard]] std::uint64_t value() const { return value_; }
-    [[nodiscard]] std::string text() const { return fmt::format("{:016x}", value_); }  ///< 16 hexadecimal digits
+    [[nodiscard]] std::string text() const;  ///< 16 hexadecimal digits
 
 private:
     std::uint64_t value_ = 0xcbf29ce484222325ULL;

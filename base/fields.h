@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 // One list of fields per Options struct. JSON, fingerprints, differences, names of files and tests all read it, so that
 // a new field cannot be forgotten in one of them:
 //
@@ -25,7 +23,8 @@
 //     };
 //     static_assert(base::lists_every_field<CleaningOptions>());
 //
-// A field is a number, a bool, an enum with to_string(), an optional number, or a struct with a list of its own.
+// A field is a number, a bool, a text, an enum with to_string(), an optional number, or a struct with a list of its
+// own.
 
 namespace mimik::base {
 
@@ -81,6 +80,11 @@ constexpr bool lists_every_field(std::size_t unlisted = 0) {
     return counter.count + unlisted == detail::member_count<Options>();
 }
 
+/// The shortest text that reads back as the same number: "0.5", "1e-06", "2000".
+[[nodiscard]] std::string number_text(double value);
+[[nodiscard]] std::string number_text(long long value);
+[[nodiscard]] std::string number_text(unsigned long long value);
+
 /// A value as people read it: "0.5", "on", "r2logr", "none".
 template <class T>
 std::string value_text(const T& value) {
@@ -88,8 +92,14 @@ std::string value_text(const T& value) {
         return value ? "on" : "off";
     else if constexpr (std::is_enum_v<T>)
         return std::string(to_string(value));
+    else if constexpr (std::convertible_to<const T&, std::string>)
+        return value;
+    else if constexpr (std::floating_point<T>)
+        return number_text(double{value});
+    else if constexpr (std::signed_integral<T>)
+        return number_text(static_cast<long long>(value));
     else
-        return fmt::format("{}", value);
+        return number_text(static_cast<unsigned long long>(value));
 }
 template <class T>
 std::string value_text(const std::optional<T>& value) {
@@ -104,7 +114,7 @@ std::string field_text(const Options& options, const std::string& prefix = {}) {
         if constexpr (HasFields<std::remove_cvref_t<decltype(value)>>)
             text += field_text(value, prefix + name + ".");
         else
-            text += fmt::format(" {}{} {}", prefix, name, value_text(value));
+            text += " " + prefix + name + " " + value_text(value);
     });
     return text;
 }
@@ -113,23 +123,32 @@ struct FieldDifference {
     std::string name, first, second;  ///< values as value_text()
     bool is_switch = false;           ///< a bool
 };
-/// The fields in which two structs differ.
+namespace detail {
+struct FieldValue {
+    std::string name, text;
+    bool is_switch = false;
+};
+template <HasFields Options>
+void list_values(const Options& options, const std::string& prefix, std::vector<FieldValue>& values) {
+    each_field(options, [&](const char* name, const auto& value) {
+        using Value = std::remove_cvref_t<decltype(value)>;
+        if constexpr (HasFields<Value>)
+            list_values(value, prefix + name + ".", values);
+        else
+            values.push_back({prefix + name, value_text(value), std::same_as<Value, bool>});
+    });
+}
+}  // namespace detail
+/// The fields in which two structs differ, those of nested structs as "outer.inner".
 template <HasFields Options>
 std::vector<FieldDifference> field_differences(const Options& first, const Options& second) {
-    std::vector<std::pair<std::string, std::string>> values;
-    each_field(first, [&](const char* name, const auto& value) {
-        if constexpr (!HasFields<std::remove_cvref_t<decltype(value)>>) values.emplace_back(name, value_text(value));
-    });
+    std::vector<detail::FieldValue> one, other;
+    detail::list_values(first, {}, one);
+    detail::list_values(second, {}, other);
     std::vector<FieldDifference> differences;
-    std::size_t k = 0;
-    each_field(second, [&](const char*, const auto& value) {
-        using Value = std::remove_cvref_t<decltype(value)>;
-        if constexpr (!HasFields<Value>) {
-            auto& [name, text] = values[k++];
-            if (text != value_text(value))
-                differences.push_back({name, text, value_text(value), std::same_as<Value, bool>});
-        }
-    });
+    for (std::size_t k = 0; k < one.size(); ++k)
+        if (one[k].text != other[k].text)
+            differences.push_back({one[k].name, one[k].text, other[k].text, one[k].is_switch});
     return differences;
 }
 

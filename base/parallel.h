@@ -15,4 +15,12 @@ void set_thread_count(int threads);
 /// not have run.
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
 
+/// Calls body(index) for every index below `count`, each a piece of its own: for few that take long.
+template <class Body>
+void parallel_for_each(std::size_t count, const Body& body) {
+    parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t index = begin; index < end; ++index) body(index);
+    });
+}
+
 }  // namespace mimik::base

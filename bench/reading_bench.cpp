@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -8,6 +9,7 @@
 
 #include "bench/bench_scan.h"
 #include "database/bnt.h"
+#include "io/json_values.h"
 
 namespace {
 
@@ -68,6 +70,29 @@ void fread_read_bnt(benchmark::State& state) {
     }
 }
 
+/// 200,000 objects in one list: a reader that pays for every entry anew takes quadratic time here.
+const std::string& list_of_objects() {
+    static const std::string text = [] {
+        std::string list = "[";
+        for (int k = 0; k < 200'000; ++k) list += "{},";
+        return list + "0]";
+    }();
+    return text;
+}
+
+void mimik_parse_json(benchmark::State& state) {
+    const auto& text = list_of_objects();
+    for (auto _ : state) benchmark::DoNotOptimize(io::parse_json(text, "list"));
+}
+
+/// What the library takes where nothing is bounded.
+void nlohmann_parse_json(benchmark::State& state) {
+    const auto& text = list_of_objects();
+    for (auto _ : state) benchmark::DoNotOptimize(nlohmann::json::parse(text));
+}
+
+BENCHMARK(mimik_parse_json)->Unit(benchmark::kMillisecond);
+BENCHMARK(nlohmann_parse_json)->Unit(benchmark::kMillisecond);
 BENCHMARK(mimik_read_bnt)->Unit(benchmark::kMillisecond);
 BENCHMARK(fread_read_bnt)->Unit(benchmark::kMillisecond);
 BENCHMARK(mimik_read_bnt_as_scan)->Unit(benchmark::kMillisecond);

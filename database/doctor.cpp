@@ -14,6 +14,7 @@
 #include "base/errors.h"
 #include "database/bnt.h"
 #include "geometry/face_axes.h"
+#include "geometry/spikes.h"
 #include "io/json_values.h"
 #include "io/landmark_io.h"
 
@@ -342,19 +343,20 @@ void check_surface(const LoadedScan& loaded, const DoctorOptions& options, Repor
                                holes.largest_mm, text_of(holes.largest_at_mm)),
                    "preprocessing bridges holes and marks the bridges, or keeps them as a mask");
 
-    const auto spikes = find_spikes(scan, options.spike_mm);
-    if (!spikes.empty())
+    const auto spikes = geometry::find_spikes(scan, geometry::scan_neighbours(scan), options.spike_mm);
+    if (const auto count = std::count(spikes.begin(), spikes.end(), 1); count > 0) {
+        const auto& first =
+            scan.points_mm[static_cast<std::size_t>(std::find(spikes.begin(), spikes.end(), 1) - spikes.begin())];
         report.add(
-            static_cast<double>(spikes.size()) > options.max_spike_share * static_cast<double>(valid)
-                ? Severity::warning
-                : Severity::note,
+            static_cast<double>(count) > options.max_spike_share * static_cast<double>(valid) ? Severity::warning
+                                                                                              : Severity::note,
             "spikes",
             fmt::format(
                 "{} point{} ({:.2f} %) more than {} mm off the neighbourhood, the first at ({:.0f}, {:.0f}, {:.0f}) mm",
-                spikes.size(), spikes.size() == 1 ? "" : "s",
-                100.0 * static_cast<double>(spikes.size()) / static_cast<double>(valid), options.spike_mm,
-                scan.points_mm[spikes[0]].x(), scan.points_mm[spikes[0]].y(), scan.points_mm[spikes[0]].z()),
+                count, count == 1 ? "" : "s", 100.0 * static_cast<double>(count) / static_cast<double>(valid),
+                options.spike_mm, first.x(), first.y(), first.z()),
             "preprocessing removes spikes; look at hair, glasses and eyelashes");
+    }
 }
 
 void check_texture(const LoadedScan& loaded, Report& report) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/fields.h"
 #include "database/scan_database.h"
 
 namespace mimik::database {
@@ -32,14 +33,26 @@ struct DoctorOptions {
     double min_size_ratio = 0.6;  ///< eye distance, mouth width ... against the adult mean: children and extremes pass
     double max_size_ratio = 1.6;
     double max_hole_mm = 15.0;  ///< of what a hole takes of the skin; more gets a warning (see find_holes)
-    double spike_mm = 4.0;  ///< off the neighbourhood by more than this; a nose wall on a 0.8 mm lattice stays below
+    double spike_mm = 4.0;      ///< as CleaningOptions of preprocessing, which removes the spikes (geometry/spikes.h)
     double max_spike_share = 0.002;  ///< of the valid points; more get a warning
     double landmark_off_scan_mm =
         2.0;  ///< landmarks are scan points; further off gets a warning, five times as far an error
     double order_tolerance_mm = 2.0;  ///< landmarks may lie this much in the wrong order: closed lips, marking noise
     int min_points = 2000;            ///< a face at the usual 0.8 mm has 35,000
-    void check() const;               ///< throws InputError naming field and value
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("min_size_ratio", self.min_size_ratio);
+        visit("max_size_ratio", self.max_size_ratio);
+        visit("max_hole_mm", self.max_hole_mm);
+        visit("spike_mm", self.spike_mm);
+        visit("max_spike_share", self.max_spike_share);
+        visit("landmark_off_scan_mm", self.landmark_off_scan_mm);
+        visit("order_tolerance_mm", self.order_tolerance_mm);
+        visit("min_points", self.min_points);
+    }
+    void check() const;  ///< throws InputError naming field and value
 };
+static_assert(base::lists_every_field<DoctorOptions>());
 
 /// Everything the doctor finds on one scan, worst first; nothing is thrown for a bad file. `neutral` (may be null): a
 /// neutral scan of the same subject, for the side of one-sided codes. Holes are judged on scans with rows or faces.
@@ -70,9 +83,6 @@ struct SkinHole {
 };
 /// Without eyes, mouth, nose and chin among the landmarks all counts as skin.
 [[nodiscard]] SkinHole worst_skin_hole(const HoleReport& holes, const geometry::Landmarks& landmarks);
-
-/// Points that lie off their neighbourhood by more than `spike_mm`, by index.
-[[nodiscard]] std::vector<std::size_t> find_spikes(const geometry::RangeScan& scan, double spike_mm);
 
 /// As a JSON array of objects with the fields of Finding, and back. @throws InputError on anything else.
 [[nodiscard]] std::string to_json(const std::vector<Finding>& findings);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/fields.h"
 #include "database/scan_id.h"
 #include "geometry/landmarks.h"
 
@@ -9,8 +10,14 @@ struct SideDecisionOptions {
     double min_difference_mm =
         1.5;                 ///< a posed expression repeats to about 1 mm (Johnston 2003): less than that says nothing
     double min_ratio = 1.3;  ///< of the larger to the smaller motion
-    void check() const;      ///< throws InputError naming field and value
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("min_difference_mm", self.min_difference_mm);
+        visit("min_ratio", self.min_ratio);
+    }
+    void check() const;  ///< throws InputError naming field and value
 };
+static_assert(base::lists_every_field<SideDecisionOptions>());
 
 /// Which mouth corner moved, with the evidence.
 struct SideDecision {

@@ -1,23 +1,22 @@
-// Holes and spikes of a scan (database/doctor.h).
+// Holes of a scan (database/doctor.h).
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "database/doctor.h"
+#include "geometry/disjoint_sets.h"
 #include "geometry/face_axes.h"
-#include "geometry/point_index.h"
+#include "geometry/topology.h"
 
 namespace mimik::database {
 namespace {
@@ -133,28 +132,17 @@ HoleReport holes_of_lattice(const geometry::RangeScan& scan) {
 HoleReport holes_of_mesh(const geometry::RangeScan& scan) {
     HoleReport report;
     report.judged = true;
-    std::unordered_map<std::uint64_t, int> uses;
-    for (std::size_t f = 0; f < scan.faces.size(); ++f) {
-        const auto face = scan.faces[f];
-        for (std::size_t k = 0; k < face.size(); ++k) {
-            const auto [a, b] = std::minmax(face[k], face[(k + 1) % face.size()]);
-            if (a != b) ++uses[std::uint64_t{a} << 32 | b];
-        }
+    geometry::DisjointSets sets(scan.points_mm.size());
+    std::vector<std::uint32_t> on_rim;
+    for (const auto& [a, b] : geometry::border_edges(scan.faces)) {
+        if (a == b) continue;
+        sets.join(a, b);
+        on_rim.insert(on_rim.end(), {a, b});
     }
-    std::unordered_map<std::uint32_t, std::uint32_t> parent;
-    const auto root = [&](std::uint32_t v) {
-        parent.try_emplace(v, v);
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
-    for (const auto& [edge, count] : uses)
-        if (count == 1) {
-            const auto a = root(static_cast<std::uint32_t>(edge >> 32)), b = root(static_cast<std::uint32_t>(edge));
-            parent[std::max(a, b)] = std::min(a, b);
-        }
-    // Ordered: the report must not depend on hashing.
+    std::sort(on_rim.begin(), on_rim.end());
+    on_rim.erase(std::unique(on_rim.begin(), on_rim.end()), on_rim.end());
     std::map<std::uint32_t, std::vector<geometry::Point>> rims;
-    for (const auto& [vertex, unused] : parent) rims[root(vertex)].push_back(scan.points_mm[vertex]);
+    for (const auto vertex : on_rim) rims[sets.root(vertex)].push_back(scan.points_mm[vertex]);
     if (rims.size() < 2) return report;
     const auto outline = std::max_element(rims.begin(), rims.end(), [](const auto& a, const auto& b) {
         return box_of(a.second).diagonal().norm() < box_of(b.second).diagonal().norm();
@@ -162,52 +150,6 @@ HoleReport holes_of_mesh(const geometry::RangeScan& scan) {
     for (auto it = rims.begin(); it != rims.end(); ++it)
         if (it != outline) add_hole(report, std::move(it->second));
     return report;
-}
-
-/// A point is a spike if less than a quarter of the 5 x 5 window about it lies at its depth. Beside a straight depth
-/// jump at least nine of 24 do, in a corner eight.
-std::vector<std::size_t> spikes_of_lattice(const geometry::RangeScan& scan, double spike_mm) {
-    constexpr int reach = 2, min_neighbours = 8;
-    std::vector<std::size_t> spikes;
-    for (int row = 0; row < scan.rows; ++row)
-        for (int col = 0; col < scan.cols; ++col) {
-            const auto index =
-                static_cast<std::size_t>(row) * static_cast<std::size_t>(scan.cols) + static_cast<std::size_t>(col);
-            if (!scan.valid(index)) continue;
-            int near = 0, all = 0;
-            for (int r = std::max(0, row - reach); r <= std::min(scan.rows - 1, row + reach); ++r)
-                for (int c = std::max(0, col - reach); c <= std::min(scan.cols - 1, col + reach); ++c) {
-                    const auto other =
-                        static_cast<std::size_t>(r) * static_cast<std::size_t>(scan.cols) + static_cast<std::size_t>(c);
-                    if (other == index || !scan.valid(other)) continue;
-                    ++all;
-                    near += std::abs(scan.points_mm[other].z() - scan.points_mm[index].z()) <= spike_mm ? 1 : 0;
-                }
-            if (all >= min_neighbours && 4 * near < all) spikes.push_back(index);
-        }
-    return spikes;
-}
-
-/// Without a lattice: the nearest neighbour is further than `spike_mm` and than six times the usual distance.
-std::vector<std::size_t> spikes_of_cloud(const geometry::RangeScan& scan, double spike_mm) {
-    std::vector<std::size_t> valid, spikes;
-    std::vector<geometry::Point> points;
-    for (std::size_t i = 0; i < scan.points_mm.size(); ++i)
-        if (scan.points_mm[i].allFinite()) {
-            valid.push_back(i);
-            points.push_back(scan.points_mm[i]);
-        }
-    if (points.size() < 3) return spikes;
-    const geometry::PointIndex index(points);
-    std::vector<double> distances_mm;
-    distances_mm.reserve(points.size());
-    for (const auto& p : points) distances_mm.push_back(index.nearest(p, 2).back().distance_mm);
-    std::vector<double> sorted = distances_mm;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    const double limit_mm = std::max(spike_mm, 6 * sorted[sorted.size() / 2]);
-    for (std::size_t i = 0; i < valid.size(); ++i)
-        if (distances_mm[i] > limit_mm) spikes.push_back(valid[i]);
-    return spikes;
 }
 
 }  // namespace
@@ -230,10 +172,6 @@ SkinHole worst_skin_hole(const HoleReport& holes, const geometry::Landmarks& lan
         if (box.diagonal().norm() > worst.size_mm) worst = {box.diagonal().norm(), box.center()};
     }
     return worst;
-}
-
-std::vector<std::size_t> find_spikes(const geometry::RangeScan& scan, double spike_mm) {
-    return scan.organised() ? spikes_of_lattice(scan, spike_mm) : spikes_of_cloud(scan, spike_mm);
 }
 
 }  // namespace mimik::database

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raised whenever summaries or checks change their meaning: older catalogues are then built anew.
-constexpr int catalogue_version = 4;
+constexpr int catalogue_version = 5;
 
 // As SQLite keeps them: a file that has anything else, such as a view or a trigger, is none of ours.
 constexpr const char* about_table = "CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL)";
@@ -158,11 +158,11 @@ std::string state_with(std::string state, const ScanSummary& summary) {
     return state;
 }
 
-std::string check_state_of(const ScanDatabase& database, const ScanEntry& entry, const DoctorOptions& o) {
+std::string check_state_of(const ScanDatabase& database, const ScanEntry& entry, const DoctorOptions& options) {
     const auto* neutral = side_shows_at_mouth(entry.id) ? neutral_of(database, entry) : nullptr;
-    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", state_of(entry), neutral ? state_of(*neutral) : "",
-                       o.min_size_ratio, o.max_size_ratio, o.max_hole_mm, o.spike_mm, o.max_spike_share,
-                       o.landmark_off_scan_mm, o.order_tolerance_mm, o.min_points);
+    auto state = state_of(entry) + "|" + (neutral ? state_of(*neutral) : "");
+    base::each_field(options, [&](const char*, const auto& value) { state += "|" + base::value_text(value); });
+    return state;
 }
 
 std::string dump(const nlohmann::json& json) {
@@ -391,25 +391,22 @@ ScanIndexResult scan_index(const ScanDatabase& database, std::span<const ScanEnt
     result.summaries.resize(count);
     std::vector<std::string> states(count), check_states(count), keys(count);
     std::vector<char> known(count, 0);
-    base::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const ScanEntry& entry = *scans[i];
-            keys[i] = key_of(entry);
-            states[i] = state_of(entry);
-            check_states[i] = check_state_of(database, entry, options.doctor);
-            if (const auto it = remembered.find(keys[i]); it != remembered.end())
-                if (auto summary = recall(it->second, states[i], check_states[i], options.check)) {
-                    result.summaries[i] = std::move(*summary);
-                    known[i] = 1;
-                }
-            if (!known[i])
-                result.summaries[i] =
-                    options.check
-                        ? examine(entry, side_shows_at_mouth(entry.id) ? neutral_of(database, entry) : nullptr,
-                                  options.doctor)
-                        : summarise(entry);
-            if (options.progress) options.progress(entry);
-        }
+    base::parallel_for_each(count, [&](std::size_t i) {
+        const ScanEntry& entry = *scans[i];
+        keys[i] = key_of(entry);
+        states[i] = state_of(entry);
+        check_states[i] = check_state_of(database, entry, options.doctor);
+        if (const auto it = remembered.find(keys[i]); it != remembered.end())
+            if (auto summary = recall(it->second, states[i], check_states[i], options.check)) {
+                result.summaries[i] = std::move(*summary);
+                known[i] = 1;
+            }
+        if (!known[i])
+            result.summaries[i] =
+                options.check ? examine(entry, side_shows_at_mouth(entry.id) ? neutral_of(database, entry) : nullptr,
+                                        options.doctor)
+                              : summarise(entry);
+        if (options.progress) options.progress(entry);
     });
 
     std::map<std::string, Remembered> changed;

@@ -7,16 +7,11 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "geometry/statistics.h"
 #include "geometry/types.h"
 
 namespace mimik::database {
 namespace {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 geometry::TextureCoordinate turned(const geometry::TextureCoordinate& t, TextureAxes axes) {
     switch (axes) {
@@ -123,7 +118,7 @@ std::optional<TextureOrientation> texture_orientation(const geometry::RangeScan&
     if (errors[0].size() < 3) return std::nullopt;
     TextureOrientation result;
     result.landmarks = static_cast<int>(errors[0].size());
-    for (std::size_t k = 0; k < 4; ++k) result.median_error_px[k] = median(errors[k]);
+    for (std::size_t k = 0; k < 4; ++k) result.median_error_px[k] = geometry::upper_median(errors[k]);
     const auto best =
         static_cast<std::size_t>(std::min_element(result.median_error_px.begin(), result.median_error_px.end()) -
                                  result.median_error_px.begin());

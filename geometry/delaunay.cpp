@@ -171,6 +171,7 @@ public:
     }
 
     [[nodiscard]] const std::vector<std::uint32_t>& corners() const { return vertex_; }
+    [[nodiscard]] std::uint64_t steps() const { return steps_; }
 
 private:
     static std::uint32_t corner(std::uint32_t t, std::uint32_t k) { return 3 * t + k; }
@@ -187,6 +188,7 @@ private:
         std::uint32_t edge = corner(last_, 0);
         if (!behind(edge)) edge = twin_[edge];
         for (;;) {
+            ++steps_;
             const std::uint32_t crossed = twin_[edge];
             if (outside(crossed / 3)) return crossed / 3;
             // Which side is tried first changes: always the same one would walk all round a vertex of thin triangles.
@@ -218,6 +220,7 @@ private:
 
     /// The triangle's first edge lies across from its last corner, p; after the flip the two end in p again.
     void flip(std::uint32_t t) {
+        ++steps_;
         const std::uint32_t far = twin_[corner(t, 0)], u = far / 3, p = vertex_[corner(t, 2)];
         const std::uint32_t a = vertex_[corner(t, 0)], b = vertex_[corner(t, 1)], d = vertex_[next(next(far))];
         const std::uint32_t ad = twin_[next(far)], db = twin_[next(next(far))], bp = twin_[corner(t, 1)];
@@ -263,6 +266,7 @@ private:
     const Predicates& predicates_;
     std::vector<std::uint32_t> vertex_, twin_, unsettled_;
     std::uint32_t last_ = 0, turns_ = 0;
+    std::uint64_t steps_ = 0;
 };
 
 /// The first point, the next in another place and the next off their line, counter-clockwise; none without three such.
@@ -286,7 +290,7 @@ bool spans_triangle(std::span<const Planar> points_mm) {
     return first_triangle(points_mm, Predicates(points_mm)).has_value();
 }
 
-std::vector<Triangle> delaunay(std::span<const Planar> points_mm) {
+std::vector<Triangle> delaunay(std::span<const Planar> points_mm, DelaunayReport* report) {
     for (std::size_t i = 0; i < points_mm.size(); ++i)
         if (!points_mm[i].allFinite())
             throw InputError(
@@ -310,6 +314,7 @@ std::vector<Triangle> delaunay(std::span<const Planar> points_mm) {
         const std::uint32_t holder = triangulation.insert(p);
         order[holder] = std::min(order[holder], order[p]);
     }
+    if (report) report->steps = triangulation.steps();
     std::vector<Triangle> triangles;
     const auto& corners = triangulation.corners();
     triangles.reserve(corners.size() / 3);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fields.h"
 #include "geometry/spline_kernel.h"
 #include "geometry/types.h"
 
@@ -17,8 +18,16 @@ struct ThinPlateSplineOptions {
     /// in any unit: on a face 0.5 nm and 0.5 micrometres.
     double min_separation_ratio = 1e-8;
     double min_thickness_ratio = 1e-5;
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("kernel", self.kernel);
+        visit("smoothing", self.smoothing);
+        visit("min_separation_ratio", self.min_separation_ratio);
+        visit("min_thickness_ratio", self.min_thickness_ratio);
+    }
     void check() const;
 };
+static_assert(base::lists_every_field<ThinPlateSplineOptions>());
 
 /// Thin-plate spline R^3 -> R^3 through point pairs (Eqs 4.11-4.19 with the misprints mended):
 ///     f(x) = a + A x + sum_i w_i U(|x - s_i|),   sum w_i = 0,   sum w_i s_i^T = 0,   (K + X I) W + P A = V

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,7 @@
 #include "base/errors.h"
 #include "base/fields.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "geometry/landmarks.h"
 #include "geometry/types.h"
 
@@ -81,8 +83,6 @@ void read_list(const nlohmann::json& object, const char* key, const Take& take) 
 [[nodiscard]] nlohmann::json to_json(const geometry::Landmarks& landmarks);
 [[nodiscard]] geometry::Landmarks landmarks_from_json(const nlohmann::json& object, const char* key);
 
-/// As we write it: one value a line; bytes that are no UTF-8 (file names may hold any) become the replacement character
-/// instead of an exception at the end of a long run.
 /// An enum by its to_string(): its values count from 0. @throws InputError listing the words there are.
 template <class Enum>
 Enum enum_from_json(const nlohmann::json& value) {
@@ -94,10 +94,17 @@ Enum enum_from_json(const nlohmann::json& value) {
         if (known == word) return static_cast<Enum>(k);
         if (words.find(known) == std::string::npos) words += (words.empty() ? "" : ", ") + known;
     }
-    throw InputError(shown(value) + " is none of " + words);
+    throw InputError(base::in_quotes(word) + " is none of " + words);
 }
 
-/// The fields of an options struct (base/fields.h), by name; enums as words.
+namespace detail {
+template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
+}  // namespace detail
+
+/// The fields of an options struct (base/fields.h), by name; enums as words, an optional without a value as null.
 template <base::HasFields Options>
 nlohmann::json fields_to_json(const Options& options) {
     nlohmann::json json = nlohmann::json::object();
@@ -107,6 +114,8 @@ nlohmann::json fields_to_json(const Options& options) {
             json[name] = fields_to_json(value);
         else if constexpr (std::is_enum_v<Value>)
             json[name] = to_string(value);
+        else if constexpr (detail::is_optional<Value>)
+            json[name] = value ? nlohmann::json(*value) : nlohmann::json(nullptr);
         else
             json[name] = value;
     });
@@ -124,11 +133,17 @@ void read_fields(const nlohmann::json& json, Options& options) {
             });
         else if constexpr (std::is_enum_v<Value>)
             value = read_field(json, name, enum_from_json<Value>);
+        else if constexpr (detail::is_optional<Value>)
+            value = read_field(json, name, [](const nlohmann::json& inner) {
+                return inner.is_null() ? Value() : Value(inner.get<typename Value::value_type>());
+            });
         else
             value = read_field<Value>(json, name);
     });
 }
 
+/// As we write it: one value a line; bytes that are no UTF-8 (file names may hold any) become the replacement character
+/// instead of an exception at the end of a long run.
 [[nodiscard]] std::string json_text(const nlohmann::json& document);
 [[nodiscard]] std::string json_text(const nlohmann::ordered_json& document);
 

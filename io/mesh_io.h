@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "base/fields.h"
 #include "geometry/mesh.h"
 
 namespace mimik::io {
@@ -55,7 +56,13 @@ struct MeshFile {
 struct MeshWriteOptions {
     std::string texture_file;  ///< image beside the mesh, named in OBJ's MTL and PLY's comment; empty: none
     bool binary = true;        ///< PLY and STL; false: readable text
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("texture_file", self.texture_file);
+        visit("binary", self.binary);
+    }
 };
+static_assert(base::lists_every_field<MeshWriteOptions>());
 
 /// PLY (double precision, attributes as extra properties), OBJ (17 digits), STL (single precision, triangles), VTP
 /// (attributes as point data), by extension. Faces, texture coordinates and colours are kept where the format can hold

@@ -214,6 +214,109 @@ std::vector<char> holes(const geometry::QuadGrid& grid) {
     return open;
 }
 
+/// Cheeks to cheeks and hairline to chin; depths are still to come.
+geometry::QuadGrid empty_grid(const Landmarks& consensus, const AverageFaceOptions& options) {
+    geometry::QuadGrid grid;
+    grid.rows = options.rows;
+    grid.cols = options.cols;
+    const Point left = consensus.position_mm("eye_outer_left"), right = consensus.position_mm("eye_outer_right");
+    const double eyes_mm = geometry::outer_eye_distance_mm(consensus);
+    const double x_max = options.half_width * eyes_mm;
+    const double y_max = 0.5 * (left.y() + right.y()) + options.above_eyes * eyes_mm;
+    const double y_min = consensus.position_mm("chin").y() - options.below_chin * eyes_mm;
+    for (int row = 0; row < grid.rows; ++row)
+        for (int col = 0; col < grid.cols; ++col)
+            grid.vertices_mm.emplace_back(-x_max + 2 * x_max * col / (grid.cols - 1),
+                                          y_min + (y_max - y_min) * row / (grid.rows - 1),
+                                          std::numeric_limits<double>::quiet_NaN());
+    return grid;
+}
+
+constexpr double in_front_mm = 500.0;  // rays start there and go backwards
+
+/// Depths of a face, warped onto the consensus, at the vertices of the grid; NaN where it has none.
+std::vector<double> depths_of(const Face& face, const Landmarks& consensus, const geometry::QuadGrid& grid) {
+    const auto consensus_from_scan = geometry::landmark_spline(face.landmarks, consensus);
+    std::vector<Point> warped(face.grid.size(), Point::Zero());
+    for (std::size_t v = 0; v < warped.size(); ++v)
+        if (face.grid.inside(v)) warped[v] = face.grid.vertices_mm[v];
+    consensus_from_scan.apply(warped, warped);
+    const geometry::SurfaceIndex surface(warped, geometry::triangles(face.grid, geometry::BridgedVertices::leave_out));
+    std::vector<double> depths(grid.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t v = 0; v < depths.size(); ++v) {
+        geometry::SurfacePoint hit;
+        const Point from(grid.vertices_mm[v].x(), grid.vertices_mm[v].y(), in_front_mm);
+        if (surface.first_hit(from, -geometry::Vector::UnitZ(), hit)) depths[v] = hit.position_mm.z();
+    }
+    return depths;
+}
+
+/// Faces in batches: memory stays bounded, and depths are added in the order of the subjects.
+DepthSums sum_depths(std::size_t count, const std::function<Face(std::size_t)>& load, const Landmarks& consensus,
+                     const geometry::QuadGrid& grid, std::vector<std::string>& scans) {
+    DepthSums sums(grid.size());
+    constexpr std::size_t batch = 16;
+    for (std::size_t begin = 0; begin < count; begin += batch) {
+        const std::size_t size = std::min(count, begin + batch) - begin;
+        std::vector<std::vector<double>> depths(size);
+        std::vector<std::string> names(size);
+        base::parallel_for_each(size, [&](std::size_t k) {
+            const Face face = load(begin + k);
+            names[k] = face.id.name();
+            depths[k] = depths_of(face, consensus, grid);
+        });
+        for (std::size_t k = 0; k < size; ++k) {
+            scans.push_back(names[k]);
+            sums.add(depths[k], static_cast<std::size_t>(grid.cols));
+        }
+    }
+    return sums;
+}
+
+std::size_t mirrored_vertex(const geometry::QuadGrid& grid, std::size_t v) {
+    const auto cols = static_cast<std::size_t>(grid.cols);
+    return v - v % cols + (cols - 1 - v % cols);
+}
+
+/// Measured is what `needed` faces measured. A cell that just misses that stands all the same if its mirror image makes
+/// up for it. Holes are bridged.
+void mark_origins(geometry::QuadGrid& grid, const DepthSums& sums, double needed) {
+    grid.origin.assign(grid.size(), VertexOrigin::outside);
+    for (std::size_t v = 0; v < grid.size(); ++v) {
+        const int here = sums.depth[v].count, there = sums.depth[mirrored_vertex(grid, v)].count;
+        const bool together = here + there >= 2 * needed && here >= 0.5 * needed;
+        if (here > 0 && (here >= needed || together)) grid.origin[v] = VertexOrigin::measured;
+    }
+    const auto hole = holes(grid);
+    for (std::size_t v = 0; v < grid.size(); ++v)
+        if (hole[v]) grid.origin[v] = VertexOrigin::bridged;
+}
+
+/// One outline for both halves: what stands on the left has its place on the right.
+void make_outline_symmetric(geometry::QuadGrid& grid) {
+    const auto whole = grid.origin;
+    for (std::size_t v = 0; v < grid.size(); ++v)
+        if (whole[mirrored_vertex(grid, v)] == VertexOrigin::outside) {
+            grid.origin[v] = VertexOrigin::outside;
+            grid.vertices_mm[v].z() = std::numeric_limits<double>::quiet_NaN();
+        }
+}
+
+/// Nose tip of the surface itself at the origin: straight behind the consensus' own.
+void put_nose_at_origin(AverageFace& average, const Landmarks& consensus) {
+    auto& grid = average.grid;
+    geometry::SurfacePoint nose;
+    const geometry::SurfaceIndex surface(grid.vertices_mm, geometry::triangles(grid));
+    const Point tip = consensus.position_mm("nose_tip");
+    if (!surface.first_hit({tip.x(), tip.y(), in_front_mm}, -geometry::Vector::UnitZ(), nose)) return;
+    const Transform shift(Eigen::Translation3d(-nose.position_mm));
+    for (auto& p : grid.vertices_mm) p -= nose.position_mm;  // not shift * p: 0 * NaN would spread from z
+    // Average landmarks lie on the average surface.
+    std::vector<Landmark> marks;
+    for (const auto& mark : consensus.all()) marks.push_back({mark.name, shift * mark.position_mm, ""});
+    average.landmarks = Landmarks(std::move(marks));
+}
+
 }  // namespace
 
 Landmarks consensus_landmarks(std::span<const Landmarks> sets, int max_iterations, double* rms_mm) {
@@ -288,90 +391,13 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
     options.check();
     AverageFace average;
     average.landmarks = consensus;
-    auto& grid = average.grid;
-    grid.rows = options.rows;
-    grid.cols = options.cols;
-
-    const Point left = consensus.position_mm("eye_outer_left"), right = consensus.position_mm("eye_outer_right");
-    const double eyes_mm = geometry::outer_eye_distance_mm(consensus);
-    const double x_max = options.half_width * eyes_mm;
-    const double y_max = 0.5 * (left.y() + right.y()) + options.above_eyes * eyes_mm;
-    const double y_min = consensus.position_mm("chin").y() - options.below_chin * eyes_mm;
-    const auto cells = static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.cols);
-    for (int row = 0; row < grid.rows; ++row)
-        for (int col = 0; col < grid.cols; ++col)
-            grid.vertices_mm.emplace_back(-x_max + 2 * x_max * col / (grid.cols - 1),
-                                          y_min + (y_max - y_min) * row / (grid.rows - 1),
-                                          std::numeric_limits<double>::quiet_NaN());
-
-    // Faces in batches: memory stays bounded, and depths are added in the order of the subjects.
-    DepthSums sums(cells);
-    constexpr std::size_t batch = 16;
-    for (std::size_t begin = 0; begin < count; begin += batch) {
-        const std::size_t end = std::min(count, begin + batch);
-        std::vector<std::vector<double>> depths(end - begin);
-        std::vector<std::string> names(end - begin);
-        base::parallel_for(end - begin, 1, [&](std::size_t first, std::size_t last) {
-            for (std::size_t k = first; k < last; ++k) {
-                const Face face = load(begin + k);
-                names[k] = face.id.name();
-                const auto consensus_from_scan = geometry::landmark_spline(face.landmarks, consensus);
-                std::vector<Point> warped(face.grid.size(), Point::Zero());
-                for (std::size_t v = 0; v < warped.size(); ++v)
-                    if (face.grid.inside(v)) warped[v] = face.grid.vertices_mm[v];
-                consensus_from_scan.apply(warped, warped);
-                const geometry::SurfaceIndex surface(
-                    warped, geometry::triangles(face.grid, geometry::BridgedVertices::leave_out));
-                depths[k].assign(cells, std::numeric_limits<double>::quiet_NaN());
-                for (std::size_t v = 0; v < cells; ++v) {
-                    geometry::SurfacePoint hit;
-                    const Point in_front(grid.vertices_mm[v].x(), grid.vertices_mm[v].y(), 500.0);
-                    if (surface.first_hit(in_front, -geometry::Vector::UnitZ(), hit))
-                        depths[k][v] = hit.position_mm.z();
-                }
-            }
-        });
-        for (std::size_t k = 0; k < depths.size(); ++k) {
-            average.scans.push_back(names[k]);
-            sums.add(depths[k], static_cast<std::size_t>(grid.cols));
-        }
-    }
-
-    // A cell that just misses the share stands all the same if its mirror image makes up for it.
+    average.grid = empty_grid(consensus, options);
+    const auto sums = sum_depths(count, load, consensus, average.grid, average.scans);
     const double needed = options.min_share * static_cast<double>(count);
-    const auto mirrored_cell = [cols = static_cast<std::size_t>(grid.cols)](std::size_t v) {
-        return v - v % cols + (cols - 1 - v % cols);
-    };
-    grid.origin.assign(cells, VertexOrigin::outside);
-    for (std::size_t v = 0; v < cells; ++v) {
-        const int here = sums.depth[v].count, there = sums.depth[mirrored_cell(v)].count;
-        const bool together = here + there >= 2 * needed && here >= 0.5 * needed;
-        if (here > 0 && (here >= needed || together)) grid.origin[v] = VertexOrigin::measured;
-    }
-    const auto hole = holes(grid);
-    for (std::size_t v = 0; v < cells; ++v)
-        if (hole[v]) grid.origin[v] = VertexOrigin::bridged;
-    integrate_depths(grid, sums, count, 0.5 * needed);
-    // One outline for both halves: what stands on the left has its place on the right.
-    const auto whole = grid.origin;
-    for (std::size_t v = 0; v < cells; ++v)
-        if (whole[mirrored_cell(v)] == VertexOrigin::outside) {
-            grid.origin[v] = VertexOrigin::outside;
-            grid.vertices_mm[v].z() = std::numeric_limits<double>::quiet_NaN();
-        }
-
-    // Nose tip of the surface itself at the origin: straight behind the consensus' own.
-    geometry::SurfacePoint nose;
-    const geometry::SurfaceIndex surface(grid.vertices_mm, geometry::triangles(grid));
-    const Point tip = consensus.position_mm("nose_tip");
-    if (surface.first_hit({tip.x(), tip.y(), 500.0}, -geometry::Vector::UnitZ(), nose)) {
-        const Transform shift(Eigen::Translation3d(-nose.position_mm));
-        for (auto& p : grid.vertices_mm) p -= nose.position_mm;  // not shift * p: 0 * NaN would spread from z
-        // Average landmarks lie on the average surface.
-        std::vector<Landmark> marks;
-        for (const auto& mark : consensus.all()) marks.push_back({mark.name, shift * mark.position_mm, ""});
-        average.landmarks = Landmarks(std::move(marks));
-    }
+    mark_origins(average.grid, sums, needed);
+    integrate_depths(average.grid, sums, count, 0.5 * needed);
+    make_outline_symmetric(average.grid);
+    put_nose_at_origin(average, consensus);
     return average;
 }
 

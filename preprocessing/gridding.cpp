@@ -7,12 +7,16 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/errors.h"
 #include "geometry/delaunay.h"
+#include "geometry/disjoint_sets.h"
+#include "geometry/statistics.h"
+#include "geometry/topology.h"
 
 namespace mimik::preprocessing {
 namespace {
@@ -162,14 +166,7 @@ private:
     double per_x_ = 0.0, per_y_ = 0.0;
 };
 
-/// Median of some thousands of values taken at even steps: the whole scan is as good and costs more than the rest.
-double median(std::vector<double>& values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
+// Medians of some thousands of values taken at even steps: the whole scan is as good and costs more than the rest.
 double lattice_spacing(const RangeScan& scan, const std::vector<std::uint8_t>& valid) {
     const std::size_t step = std::max<std::size_t>(1, scan.points_mm.size() / 5003);
     const auto cols = static_cast<std::size_t>(scan.cols);
@@ -181,7 +178,7 @@ double lattice_spacing(const RangeScan& scan, const std::vector<std::uint8_t>& v
         if (i + cols < valid.size() && valid[i + cols])
             squared.push_back(planar_squared(scan.points_mm[i], scan.points_mm[i + cols]));
     }
-    return std::sqrt(median(squared));
+    return std::sqrt(geometry::upper_median(std::move(squared)));
 }
 
 double triangle_spacing(const Samples& samples, const std::vector<Triangle>& triangles) {
@@ -191,7 +188,7 @@ double triangle_spacing(const Samples& samples, const std::vector<Triangle>& tri
         for (std::size_t k = 0; k < 3; ++k)
             squared.push_back(
                 planar_squared(samples.points_mm[triangles[t][k]], samples.points_mm[triangles[t][(k + 1) % 3]]));
-    return std::sqrt(median(squared));
+    return std::sqrt(geometry::upper_median(std::move(squared)));
 }
 
 /// > 0 where d lies inside the circle through a, b, c (counter-clockwise), relative to the size of the terms.
@@ -277,26 +274,16 @@ struct FacingMesh {
 FacingMesh facing_triangles(const RangeScan& scan, const std::vector<std::uint8_t>& valid) {
     const auto& p = scan.points_mm;
     FacingMesh mesh;
-    std::vector<std::array<std::uint32_t, 2>> edges;
-    for (auto t : geometry::triangulate(scan.faces)) {
-        if (!valid[t[0]] || !valid[t[1]] || !valid[t[2]]) continue;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto a = t[k], b = t[(k + 1) % 3];
-            edges.push_back({std::min(a, b), std::max(a, b)});
-        }
+    auto triangles = geometry::triangulate(scan.faces);
+    std::erase_if(triangles, [&](const Triangle& t) { return !valid[t[0]] || !valid[t[1]] || !valid[t[2]]; });
+    for (auto t : triangles) {
         const double area2 = cross(p[t[0]], p[t[1]], p[t[2]]);
         if (!(std::abs(area2) > 1e-12)) continue;  // edge-on: no height over x and y
         if (area2 < 0) std::swap(t[1], t[2]);
         mesh.triangles.push_back(t);
     }
-    // An edge of one face only is a border.
-    std::sort(edges.begin(), edges.end());
     std::vector<std::uint8_t> at_rim(p.size(), 0);
-    for (std::size_t k = 0, end = 0; k < edges.size(); k = end) {
-        for (end = k; end < edges.size() && edges[end] == edges[k]; ++end) {
-        }
-        if (end - k == 1) at_rim[edges[k][0]] = at_rim[edges[k][1]] = 1;
-    }
+    for (const auto& [a, b] : geometry::border_edges(triangles)) at_rim[a] = at_rim[b] = 1;
     for (std::uint32_t v = 0; v < p.size(); ++v)
         if (at_rim[v]) mesh.rim.push_back(v);
     return mesh;
@@ -335,67 +322,84 @@ void for_each_edge(const QuadGrid& grid, const Visit& visit) {
         }
 }
 
+// Deeper than eyeballs lie behind lids and teeth behind lips; the inside of a head is ten times as far.
+constexpr double deep_mm = 10.0;
+
+/// Patches of a grid: vertices joined by edges that are no deep drops.
+geometry::DisjointSets patches_of(const QuadGrid& grid) {
+    geometry::DisjointSets patches(grid.size());
+    for_each_edge(grid, [&](std::uint32_t a, std::uint32_t b) {
+        const Point &p = grid.vertices_mm[a], &q = grid.vertices_mm[b];
+        if (grid.inside(a) && grid.inside(b) && !(is_drop(p, q) && std::abs(p.z() - q.z()) > deep_mm))
+            patches.join(a, b);
+    });
+    return patches;
+}
+
+/// Which patches are spared from being pits.
+class SparedPatches {
+public:
+    explicit SparedPatches(std::size_t vertices) : pit_(vertices, 1) {}
+    void spare(std::uint32_t patch) {
+        if (pit_[patch] == 0) return;
+        pit_[patch] = 0;
+        spared_.push_back(patch);
+    }
+    /// Spares what lies in front of a spared patch, and so on. @param behind_and_nearer  pairs of patches, sorted
+    void spare_in_front(const std::vector<std::array<std::uint32_t, 2>>& behind_and_nearer) {
+        while (!spared_.empty()) {
+            const auto patch = spared_.back();
+            spared_.pop_back();
+            for (auto pair =
+                     std::lower_bound(behind_and_nearer.begin(), behind_and_nearer.end(), std::array{patch, 0U});
+                 pair != behind_and_nearer.end() && (*pair)[0] == patch; ++pair)
+                spare((*pair)[1]);
+        }
+    }
+    [[nodiscard]] bool is_pit(std::uint32_t patch) const { return pit_[patch] != 0; }
+
+private:
+    std::vector<std::uint8_t> pit_;  // per patch, which its lowest vertex stands for
+    std::vector<std::uint32_t> spared_;
+};
+
+/// Spares the large patches and those at the border of the grid.
+void spare_large_and_outer(const QuadGrid& grid, geometry::DisjointSets& patches, SparedPatches& result) {
+    constexpr std::uint32_t large = 10;  // a patch of a tenth of the largest is a face in a hood, not an eye in a face
+    std::vector<std::uint32_t> size(grid.size(), 0);
+    for (std::uint32_t v = 0; v < grid.size(); ++v)
+        if (grid.inside(v)) ++size[patches.root(v)];
+    const std::uint32_t largest = *std::max_element(size.begin(), size.end());
+    for (std::uint32_t v = 0; v < grid.size(); ++v)
+        if (large * std::uint64_t{size[v]} >= largest) result.spare(v);
+    for (int row = 0; row < grid.rows; ++row)
+        for (const int col : {0, grid.cols - 1}) result.spare(patches.root(grid.index(row, col)));
+    for (int col = 0; col < grid.cols; ++col)
+        for (const int row : {0, grid.rows - 1}) result.spare(patches.root(grid.index(row, col)));
+}
+
 /// The vertices of pits: small patches of drawn surface that deep drops set apart on all sides, behind what surrounds
 /// them, as the inside of the head is where a mesh has openings for eyes and mouth.
 std::vector<std::uint8_t> in_pits(const QuadGrid& grid) {
-    // Deeper than eyeballs lie behind lids and teeth behind lips; the inside of a head is ten times as far.
-    constexpr double deep_mm = 10.0;
-    constexpr std::uint32_t large = 10;  // a patch of a tenth of the largest is a face in a hood, not an eye in a face
-    const auto joined = [&](std::uint32_t a, std::uint32_t b) {
-        const Point &p = grid.vertices_mm[a], &q = grid.vertices_mm[b];
-        return grid.inside(a) && grid.inside(b) && !(is_drop(p, q) && std::abs(p.z() - q.z()) > deep_mm);
-    };
-    // Patches: vertices joined by edges that are no such drops (union-find; the root is the lowest vertex).
-    std::vector<std::uint32_t> parent(grid.size());
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
-    for_each_edge(grid, [&](std::uint32_t a, std::uint32_t b) {
-        if (!joined(a, b)) return;
-        const auto one = root(a), other = root(b);
-        parent[std::max(one, other)] = std::min(one, other);
-    });
-    std::vector<std::uint32_t> size(grid.size(), 0);
-    for (std::uint32_t v = 0; v < grid.size(); ++v)
-        if (grid.inside(v)) ++size[root(v)];
-    const std::uint32_t largest = *std::max_element(size.begin(), size.end());
-
+    auto patches = patches_of(grid);
     // No pit is what is large, what lies at the border or beside nothing, and what lies in front of what is no pit: a
     // pit may have a deeper one in it.
-    std::vector<std::uint8_t> pit(grid.size(), 1);
-    std::vector<std::uint32_t> spared;
-    const auto spare = [&](std::uint32_t patch) {
-        if (pit[patch] == 0) return;
-        pit[patch] = 0;
-        spared.push_back(patch);
-    };
-    for (std::uint32_t v = 0; v < grid.size(); ++v)
-        if (large * std::uint64_t{size[v]} >= largest) spare(v);
-    for (int row = 0; row < grid.rows; ++row)
-        for (const int col : {0, grid.cols - 1}) spare(root(grid.index(row, col)));
-    for (int col = 0; col < grid.cols; ++col)
-        for (const int row : {0, grid.rows - 1}) spare(root(grid.index(row, col)));
+    SparedPatches spared(grid.size());
+    spare_large_and_outer(grid, patches, spared);
     std::vector<std::array<std::uint32_t, 2>> behind_and_nearer;
     for_each_edge(grid, [&](std::uint32_t a, std::uint32_t b) {
-        const auto one = root(a), other = root(b);
+        const auto one = patches.root(a), other = patches.root(b);
         if (one == other) return;
-        if (!grid.inside(a)) return spare(other);
-        if (!grid.inside(b)) return spare(one);
+        if (!grid.inside(a)) return spared.spare(other);
+        if (!grid.inside(b)) return spared.spare(one);
         const bool a_nearer = grid.vertices_mm[a].z() > grid.vertices_mm[b].z();
         behind_and_nearer.push_back({a_nearer ? other : one, a_nearer ? one : other});
     });
     std::sort(behind_and_nearer.begin(), behind_and_nearer.end());
-    while (!spared.empty()) {
-        const auto patch = spared.back();
-        spared.pop_back();
-        for (auto pair = std::lower_bound(behind_and_nearer.begin(), behind_and_nearer.end(), std::array{patch, 0U});
-             pair != behind_and_nearer.end() && (*pair)[0] == patch; ++pair)
-            spare((*pair)[1]);
-    }
+    spared.spare_in_front(behind_and_nearer);
     std::vector<std::uint8_t> result(grid.size(), 0);
-    for (std::uint32_t v = 0; v < grid.size(); ++v) result[v] = grid.inside(v) && pit[root(v)] != 0 ? 1 : 0;
+    for (std::uint32_t v = 0; v < grid.size(); ++v)
+        result[v] = grid.inside(v) && spared.is_pit(patches.root(v)) ? 1 : 0;
     return result;
 }
 
@@ -486,6 +490,173 @@ std::vector<Planar> planar(std::span<const Point> points_mm) {
     return result;
 }
 
+void check_sizes(const RangeScan& scan) {
+    const auto& p = scan.points_mm;
+    if (!scan.texture_coordinates.empty() && scan.texture_coordinates.size() != p.size())
+        throw InputError(fmt::format("the scan has {} points but {} texture coordinates; give one per point or none",
+                                     p.size(), scan.texture_coordinates.size()));
+    if (scan.organised() && static_cast<std::size_t>(scan.rows) * static_cast<std::size_t>(scan.cols) != p.size())
+        throw InputError(
+            fmt::format("the scan has {} points but a lattice of {} x {}", p.size(), scan.rows, scan.cols));
+}
+
+/// What of a scan was measured, and where it lies in x-y.
+struct Extent {
+    std::vector<std::uint8_t> valid;  // per point
+    std::size_t points = 0;
+    Planar low = Planar::Constant(std::numeric_limits<double>::infinity()), high = -low;
+};
+
+Extent extent_of(const RangeScan& scan) {
+    const auto& p = scan.points_mm;
+    Extent extent;
+    extent.valid.resize(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        extent.valid[i] = p[i].allFinite() ? 1 : 0;
+        if (!extent.valid[i]) continue;
+        ++extent.points;
+        extent.low = extent.low.cwiseMin(p[i].head<2>());
+        extent.high = extent.high.cwiseMax(p[i].head<2>());
+    }
+    if (extent.points < 3)
+        throw InputError(fmt::format("the scan has {} valid points; a surface needs three or more", extent.points));
+    if (!((extent.high - extent.low).minCoeff() > 0.0))
+        throw NumericalError(fmt::format(
+            "all {} points of the scan lie on one line in x-y; turn the face to the camera", extent.points));
+    return extent;
+}
+
+QuadGrid empty_grid(const std::vector<double>& x, const std::vector<double>& y, bool textured) {
+    QuadGrid grid;
+    grid.rows = static_cast<int>(y.size());
+    grid.cols = static_cast<int>(x.size());
+    grid.vertices_mm.reserve(x.size() * y.size());
+    for (const double row_y : y)
+        for (const double col_x : x) grid.vertices_mm.emplace_back(col_x, row_y, nan);
+    grid.origin.assign(grid.vertices_mm.size(), VertexOrigin::outside);
+    if (textured) grid.texture_coordinates.assign(grid.vertices_mm.size(), {nan, nan});
+    return grid;
+}
+
+/// Measured ones first: a vertex on an edge between the two kinds is measured.
+/// @return share of the triangles between close points that join front and back
+double draw_all(Raster& raster, const Samples& samples, const std::vector<Triangle>& triangles, double max_edge_mm) {
+    std::vector<std::uint32_t> bridges;
+    std::size_t joining = 0;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const double squared = longest_squared(samples, triangles[t]);
+        const bool close = squared <= max_edge_mm * max_edge_mm;
+        const bool joins = close && joins_front_and_back(samples, triangles[t], squared);
+        joining += joins ? 1 : 0;
+        if (!close || joins)
+            bridges.push_back(t);
+        else
+            raster.draw(samples, triangles[t], VertexOrigin::measured, false);
+    }
+    for (const auto t : bridges) raster.draw(samples, triangles[t], VertexOrigin::bridged, false);
+    const std::size_t close = triangles.size() - bridges.size() + joining;
+    return close == 0 ? 0.0 : static_cast<double>(joining) / static_cast<double>(close);
+}
+
+void fill_between(Raster& raster, const Merged& rim, double max_edge_mm) {
+    const auto across = planar(rim.points_mm);
+    if (!geometry::spans_triangle(across)) return;  // a closed surface, or slits in one
+    draw_all(raster, {rim.points_mm, rim.texture}, geometry::delaunay(across), max_edge_mm);
+}
+
+/// One scan on its way into a grid, in one of three ways.
+class Gridding {
+public:
+    Gridding(const RangeScan& scan, const GriddingOptions& options)
+        : scan_(scan),
+          options_(options),
+          extent_(extent_of(scan)),
+          x_(linspace(extent_.low.x(), extent_.high.x(), options.cols)),
+          y_(linspace(extent_.low.y(), extent_.high.y(), options.rows)),
+          grid_(empty_grid(x_, y_, !scan.texture_coordinates.empty())),
+          raster_(grid_, x_, y_) {
+        report_.points = extent_.points;
+    }
+
+    void by_lattice() {
+        report_.method = GriddingMethod::lattice;
+        const double max_edge_mm = longest_edge_mm(lattice_spacing(scan_, extent_.valid));
+        const auto lattice = split_cells(scan_, extent_.valid, max_edge_mm);
+        report_.folded_triangles = lattice.folded;
+        report_.rim_points = lattice.rim.size();
+        draw_surface(lattice.triangles);
+        fill_between(raster_, points_of(lattice.rim), max_edge_mm);
+    }
+
+    void by_mesh() {
+        report_.method = GriddingMethod::mesh;
+        const auto mesh = facing_triangles(scan_, extent_.valid);
+        draw_surface(mesh.triangles);
+        const auto pit = in_pits(grid_);
+        auto rim = points_of(in_sight(mesh.rim, scan_.points_mm, grid_, pit));
+        report_.rim_points = rim.points_mm.size();
+        // A pit is bridged from its edge, where the mesh need not have a border.
+        for (const auto v : beside(grid_, pit)) {
+            rim.points_mm.push_back(grid_.vertices_mm[v]);
+            if (!grid_.texture_coordinates.empty()) rim.texture.push_back(grid_.texture_coordinates[v]);
+        }
+        for (std::uint32_t v = 0; v < grid_.size(); ++v)
+            if (pit[v]) raster_.open(v);
+        report_.pit_vertices = static_cast<std::size_t>(std::count(pit.begin(), pit.end(), std::uint8_t{1}));
+        cut_at_drops(grid_);
+        report_.spacing_mm = triangle_spacing(all_points(), mesh.triangles);
+        report_.max_edge_mm = 0.0;  // what no face covers was not measured, however short the way across
+        fill_between(raster_, rim, report_.max_edge_mm);
+    }
+
+    void by_triangulation() {
+        auto merged = gather(scan_, extent_.valid, extent_.points);
+        const auto all = geometry::delaunay(planar(merged.points_mm));
+        if (corners_of(all, merged.points_mm.size()) < merged.points_mm.size()) average_duplicates(merged);
+        report_.duplicates = merged.duplicates;
+        const Samples samples{merged.points_mm, merged.texture};
+        report_.seen_through = draw_all(raster_, samples, all, longest_edge_mm(triangle_spacing(samples, all)));
+    }
+
+    [[nodiscard]] GriddingReport report() const {
+        auto report = report_;
+        for (const auto origin : grid_.origin) {
+            report.measured += origin == VertexOrigin::measured ? 1 : 0;
+            report.bridged += origin == VertexOrigin::bridged ? 1 : 0;
+            report.outside += origin == VertexOrigin::outside ? 1 : 0;
+        }
+        return report;
+    }
+    [[nodiscard]] QuadGrid take_grid() { return std::move(grid_); }
+
+private:
+    [[nodiscard]] Samples all_points() const { return {scan_.points_mm, scan_.texture_coordinates}; }
+    double longest_edge_mm(double spacing_mm) {
+        report_.spacing_mm = spacing_mm;
+        report_.max_edge_mm = options_.max_edge_mm.value_or(options_.max_edge_spacings * spacing_mm);
+        return report_.max_edge_mm;
+    }
+    void draw_surface(const std::vector<Triangle>& triangles) {
+        for (const auto& t : triangles) raster_.draw(all_points(), t, VertexOrigin::measured, true);
+    }
+    [[nodiscard]] Merged points_of(const std::vector<std::uint32_t>& rim) const {
+        Merged some;
+        for (const auto v : rim) {
+            some.points_mm.push_back(scan_.points_mm[v]);
+            if (!scan_.texture_coordinates.empty()) some.texture.push_back(scan_.texture_coordinates[v]);
+        }
+        return some;
+    }
+
+    const RangeScan& scan_;
+    const GriddingOptions& options_;
+    const Extent extent_;
+    const std::vector<double> x_, y_;  // of the grid's columns and rows
+    QuadGrid grid_;
+    Raster raster_;  // draws into grid_
+    GriddingReport report_;
+};
+
 }  // namespace
 
 void GriddingOptions::check() const {
@@ -500,124 +671,16 @@ void GriddingOptions::check() const {
 
 QuadGrid grid_scan(const RangeScan& scan, const GriddingOptions& options, GriddingReport* report) {
     options.check();
-    const auto& p = scan.points_mm;
-    if (!scan.texture_coordinates.empty() && scan.texture_coordinates.size() != p.size())
-        throw InputError(fmt::format("the scan has {} points but {} texture coordinates; give one per point or none",
-                                     p.size(), scan.texture_coordinates.size()));
-    if (scan.organised() && static_cast<std::size_t>(scan.rows) * static_cast<std::size_t>(scan.cols) != p.size())
-        throw InputError(
-            fmt::format("the scan has {} points but a lattice of {} x {}", p.size(), scan.rows, scan.cols));
-
-    GriddingReport made;
-    std::vector<std::uint8_t> valid(p.size());
-    Planar low = Planar::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        valid[i] = p[i].allFinite() ? 1 : 0;
-        if (!valid[i]) continue;
-        ++made.points;
-        low = low.cwiseMin(p[i].head<2>());
-        high = high.cwiseMax(p[i].head<2>());
-    }
-    if (made.points < 3)
-        throw InputError(fmt::format("the scan has {} valid points; a surface needs three or more", made.points));
-    if (!((high - low).minCoeff() > 0.0))
-        throw NumericalError(
-            fmt::format("all {} points of the scan lie on one line in x-y; turn the face to the camera", made.points));
-
-    QuadGrid grid;
-    grid.rows = options.rows;
-    grid.cols = options.cols;
-    const auto x = linspace(low.x(), high.x(), options.cols), y = linspace(low.y(), high.y(), options.rows);
-    grid.vertices_mm.reserve(x.size() * y.size());
-    for (const double row_y : y)
-        for (const double col_x : x) grid.vertices_mm.emplace_back(col_x, row_y, nan);
-    grid.origin.assign(grid.vertices_mm.size(), VertexOrigin::outside);
-    if (!scan.texture_coordinates.empty()) grid.texture_coordinates.assign(grid.vertices_mm.size(), {nan, nan});
-
-    const auto bound = [&](double spacing_mm) {
-        made.spacing_mm = spacing_mm;
-        made.max_edge_mm = options.max_edge_mm.value_or(options.max_edge_spacings * spacing_mm);
-        return made.max_edge_mm;
-    };
-    // Measured ones first: a vertex on an edge between the two kinds is measured.
-    const auto draw_all = [](Raster& raster, const Samples& samples, const std::vector<Triangle>& triangles,
-                             double max_edge_mm) {
-        std::vector<std::uint32_t> bridges;
-        std::size_t joining = 0;
-        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-            const double squared = longest_squared(samples, triangles[t]);
-            const bool close = squared <= max_edge_mm * max_edge_mm;
-            const bool joins = close && joins_front_and_back(samples, triangles[t], squared);
-            joining += joins ? 1 : 0;
-            if (!close || joins)
-                bridges.push_back(t);
-            else
-                raster.draw(samples, triangles[t], VertexOrigin::measured, false);
-        }
-        for (const auto t : bridges) raster.draw(samples, triangles[t], VertexOrigin::bridged, false);
-        const std::size_t close = triangles.size() - bridges.size() + joining;
-        return close == 0 ? 0.0 : static_cast<double>(joining) / static_cast<double>(close);
-    };
-    const auto points_of = [&](const std::vector<std::uint32_t>& rim) {
-        Merged some;
-        for (const auto v : rim) {
-            some.points_mm.push_back(p[v]);
-            if (!scan.texture_coordinates.empty()) some.texture.push_back(scan.texture_coordinates[v]);
-        }
-        return some;
-    };
-    const auto fill_between = [&](Raster& raster, const Merged& rim, double max_edge_mm) {
-        const auto across = planar(rim.points_mm);
-        if (!geometry::spans_triangle(across)) return;  // a closed surface, or slits in one
-        draw_all(raster, {rim.points_mm, rim.texture}, geometry::delaunay(across), max_edge_mm);
-    };
-    if (options.use_lattice && scan.organised()) {
-        made.method = GriddingMethod::lattice;
-        const double max_edge_mm = bound(lattice_spacing(scan, valid));
-        const auto lattice = split_cells(scan, valid, max_edge_mm);
-        made.folded_triangles = lattice.folded;
-        made.rim_points = lattice.rim.size();
-        const Samples samples{p, scan.texture_coordinates};
-        Raster raster(grid, x, y);
-        for (const auto& t : lattice.triangles) raster.draw(samples, t, VertexOrigin::measured, true);
-        fill_between(raster, points_of(lattice.rim), max_edge_mm);
-    } else if (options.use_lattice && scan.faces.size() > 0) {
-        made.method = GriddingMethod::mesh;
-        const auto mesh = facing_triangles(scan, valid);
-        const Samples samples{p, scan.texture_coordinates};
-        Raster raster(grid, x, y);
-        for (const auto& t : mesh.triangles) raster.draw(samples, t, VertexOrigin::measured, true);
-        const auto pit = in_pits(grid);
-        auto rim = points_of(in_sight(mesh.rim, p, grid, pit));
-        made.rim_points = rim.points_mm.size();
-        // A pit is bridged from its edge, where the mesh need not have a border.
-        for (const auto v : beside(grid, pit)) {
-            rim.points_mm.push_back(grid.vertices_mm[v]);
-            if (!grid.texture_coordinates.empty()) rim.texture.push_back(grid.texture_coordinates[v]);
-        }
-        for (std::uint32_t v = 0; v < grid.size(); ++v)
-            if (pit[v]) raster.open(v);
-        made.pit_vertices = static_cast<std::size_t>(std::count(pit.begin(), pit.end(), std::uint8_t{1}));
-        cut_at_drops(grid);
-        made.spacing_mm = triangle_spacing(samples, mesh.triangles);
-        made.max_edge_mm = 0.0;  // what no face covers was not measured, however short the way across
-        fill_between(raster, rim, made.max_edge_mm);
-    } else {
-        auto merged = gather(scan, valid, made.points);
-        const auto all = geometry::delaunay(planar(merged.points_mm));
-        if (corners_of(all, merged.points_mm.size()) < merged.points_mm.size()) average_duplicates(merged);
-        made.duplicates = merged.duplicates;
-        const Samples samples{merged.points_mm, merged.texture};
-        Raster raster(grid, x, y);
-        made.seen_through = draw_all(raster, samples, all, bound(triangle_spacing(samples, all)));
-    }
-    for (const auto origin : grid.origin) {
-        made.measured += origin == VertexOrigin::measured ? 1 : 0;
-        made.bridged += origin == VertexOrigin::bridged ? 1 : 0;
-        made.outside += origin == VertexOrigin::outside ? 1 : 0;
-    }
-    if (report) *report = made;
-    return grid;
+    check_sizes(scan);
+    Gridding gridding(scan, options);
+    if (options.use_lattice && scan.organised())
+        gridding.by_lattice();
+    else if (options.use_lattice && scan.faces.size() > 0)
+        gridding.by_mesh();
+    else
+        gridding.by_triangulation();
+    if (report) *report = gridding.report();
+    return gridding.take_grid();
 }
 
 }  // namespace mimik::preprocessing

@@ -156,13 +156,9 @@ public:
     }
 
     PreprocessReport run() {
-        base::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t s = begin; s < end; ++s) grid_neutral(subjects_[s]);
-        });
+        base::parallel_for_each(subjects_.size(), [&](std::size_t s) { grid_neutral(subjects_[s]); });
         prepare_average();
-        base::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t s = begin; s < end; ++s) tie_scans(subjects_[s]);
-        });
+        base::parallel_for_each(subjects_.size(), [&](std::size_t s) { tie_scans(subjects_[s]); });
         return finish();
     }
 
@@ -171,15 +167,15 @@ public:
         for (auto& subject : subjects_) expect_neutral(subject);
         name_average();
         const bool average_there = read_average();
-        base::parallel_for(subjects_.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t s = begin; s < end; ++s)
-                for (const auto* entry : subjects_[s].scans) {
-                    if (!subjects_[s].neutral) break;  // left out
-                    const bool there = entry == subjects_[s].neutral
-                                           ? average_there && tied(*entry)
-                                           : finished(face_stem(root_, entry->id), fingerprint(*entry));
-                    ++(there ? subjects_[s].up_to_date : subjects_[s].preprocessed);
-                }
+        base::parallel_for_each(subjects_.size(), [&](std::size_t s) {
+            auto& subject = subjects_[s];
+            if (!subject.neutral) return;  // left out
+            for (const auto* entry : subject.scans) {
+                const bool there = entry == subject.neutral
+                                       ? average_there && tied(*entry)
+                                       : finished(face_stem(root_, entry->id), fingerprint(*entry));
+                ++(there ? subject.up_to_date : subject.preprocessed);
+            }
         });
         PreprocessPlan plan;
         for (const auto& subject : subjects_) {
@@ -207,8 +203,9 @@ private:
     static void fail(Subject& subject, const ScanEntry& entry, const std::string& reason) {
         subject.failures.push_back({entry.id.name(), reason});
     }
-    static void remark(Subject& subject, const Face& face) {
+    void remark(Subject& subject, const Face& face) const {
         for (const auto& text : face.remarks) subject.remarks.push_back({face.id.name(), text});
+        if (const auto text = without_partner(face); !text.empty()) subject.remarks.push_back({face.id.name(), text});
         const geometry::LandmarkPairs pairs(face.snapped_landmarks, face.snapped_landmarks);
         for (const auto& pair : pairs.merged())
             if (pair == "'lower_lip_inner' lies on 'upper_lip_inner'" ||
@@ -216,6 +213,18 @@ private:
                 subject.closed_lips.push_back(face.id.name());
             else
                 subject.remarks.push_back({face.id.name(), "on one grid vertex: " + pair});
+    }
+    /// Not kept with the face: another average face may have other landmarks.
+    [[nodiscard]] std::string without_partner(const Face& face) const {
+        const geometry::LandmarkPairs pairs(face.landmarks, average_.landmarks);
+        std::vector<std::string> parts;
+        if (const auto names = pairs.only_in_to(); !names.empty())
+            parts.push_back(fmt::format("the scan lacks {} of the average face", fmt::join(names, ", ")));
+        if (const auto names = pairs.only_in_from(); !names.empty())
+            parts.push_back(fmt::format("the average face lacks {} of the scan", fmt::join(names, ", ")));
+        if (parts.empty()) return {};
+        return fmt::format("landmarks without a partner: {}; what is learned between the two goes without them",
+                           fmt::join(parts, "; "));
     }
     void done(const ScanEntry& entry) const {
         if (progress_) progress_(entry.id.name());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "synthesis/builtin_curves.h"
 
@@ -187,6 +188,169 @@ std::string region_of(const SheetVertex& p) {
     return "skin";
 }
 
+/// Distances of the columns from the midline, on one side.
+std::vector<double> half_columns() {
+    using namespace place;
+    return subdivide(0, {{philtrum_crest, 0.8},
+                         {inner_canthus, 0.83},
+                         {wing, 0.6},
+                         {mouth_corner, 0.85},
+                         {outer_canthus, 0.92},
+                         {54, 1.25},
+                         {zygion, 1.6},
+                         {gonion, 2.2},
+                         {98, 2.7},
+                         {rim, 3.1}});
+}
+
+/// Heights of the rows, and the upper one of the two of the mouth, which touch and are not joined.
+struct Rows {
+    std::vector<double> v;
+    std::uint32_t mouth = 0;
+};
+Rows sheet_rows() {
+    using namespace place;
+    auto rows = subdivide(top, {{60, 2},
+                                {42, 1.3},
+                                {24, 1.2},
+                                {8, 0.95},
+                                {upper_lid, 0.65},
+                                {eye, 0.5},
+                                {lower_lid, 0.5},
+                                {-20, 0.7},
+                                {-34, 0.9},
+                                {pronasale, 0.8},
+                                {-47, 0.65},
+                                {subnasale, 0.45},
+                                {upper_lip, 0.8},
+                                {stomion, 0.42}});
+    const auto lower = subdivide(
+        stomion, {{lower_lip, 0.5}, {sulcus, 0.7}, {pogonion, 0.9}, {gnathion, 0.95}, {-132, 1.2}, {bottom, 2.5}});
+    const auto mouth = static_cast<std::uint32_t>(rows.size() - 1);
+    rows.insert(rows.end(), lower.begin(), lower.end());
+
+    return {std::move(rows), mouth};
+}
+
+class SheetMaker {
+public:
+    SheetMaker() : half_(half_columns()), half_count_(static_cast<std::uint32_t>(half_.size())), rows_(sheet_rows()) {
+        sheet_.columns = 2 * half_count_ - 1;
+        sheet_.row_v = rows_.v;
+        index_.resize(rows_.v.size() * sheet_.columns);
+    }
+
+    Sheet make() {
+        add_vertices();
+        add_mirror();
+        add_faces();
+        add_landmarks();
+        return std::move(sheet_);
+    }
+
+private:
+    [[nodiscard]] std::uint32_t& at(std::size_t r, std::size_t c) { return index_[r * sheet_.columns + c]; }
+    [[nodiscard]] double column_s(std::uint32_t c) const {
+        return c + 1 < half_count_ ? -half_[half_count_ - 1 - c] : half_[c + 1 - half_count_];
+    }
+
+    void add_vertices() {
+        for (std::uint32_t r = 0; r < rows_.v.size(); ++r) {
+            for (std::uint32_t c = 0; c < sheet_.columns; ++c) {
+                if (r == rows_.mouth + 1 && std::abs(column_s(c)) >= place::mouth_corner)
+                    at(r, c) = at(rows_.mouth, c);  // beyond the corners the lips are one
+                else
+                    add_vertex(r, c);
+            }
+            const auto& middle = sheet_.vertices[at(r, half_count_ - 1)];
+            sheet_.row_t.push_back(middle.t);
+            sheet_.row_midline_base_z_mm.push_back(middle.base.z());
+        }
+    }
+    void add_vertex(std::uint32_t r, std::uint32_t c) {
+        SheetVertex p;
+        p.s = column_s(c);
+        p.v = rows_.v[r];
+        p.t = p.v > -35 ? eye_height(p.s, p.v) : mouth_height(p.s, p.v);
+        p.across_eye = across_eye(p.s);
+        p.base = loft_(p.s, p.t);
+        p.row = r;
+        p.column = c;
+        at(r, c) = static_cast<std::uint32_t>(sheet_.vertices.size());
+        sheet_.lower_lip_side.push_back(r > rows_.mouth);
+        sheet_.regions.push_back(region_of(p));
+        sheet_.vertices.push_back(p);
+    }
+    void add_mirror() {
+        sheet_.mirror.resize(sheet_.vertices.size());
+        for (std::uint32_t r = 0; r < rows_.v.size(); ++r)
+            for (std::uint32_t c = 0; c < sheet_.columns; ++c) sheet_.mirror[at(r, c)] = at(r, sheet_.columns - 1 - c);
+    }
+    void add_faces() {
+        for (std::uint32_t r = 0; r + 1 < rows_.v.size(); ++r) {
+            if (r == rows_.mouth) continue;
+            for (std::uint32_t c = 0; c + 1 < sheet_.columns; ++c) {
+                const std::array<std::uint32_t, 4> quad = {at(r, c), at(r + 1, c), at(r + 1, c + 1), at(r, c + 1)};
+                sheet_.faces.add(quad);
+            }
+        }
+    }
+
+    [[nodiscard]] std::uint32_t row_of(double v, bool last = false) const {
+        const auto& rows = rows_.v;
+        std::uint32_t best = 0;
+        for (std::uint32_t r = 0; r < rows.size(); ++r)
+            if (std::abs(rows[r] - v) < std::abs(rows[best] - v) || (last && rows[r] == rows[best])) best = r;
+        return best;
+    }
+    [[nodiscard]] std::uint32_t column_of(double s) const {
+        std::uint32_t best = 0;
+        for (std::uint32_t c = 0; c < half_count_; ++c)
+            if (std::abs(half_[c] - s) < std::abs(half_[best] - s)) best = c;
+        return best;
+    }
+    /// The sheet row that runs through the brow line there.
+    [[nodiscard]] double brow_row(double a) const {
+        double best = 0;
+        for (const double v : rows_.v)
+            if (v > -2 && std::abs(eye_height(a, v) - brow_line(a)) < std::abs(eye_height(a, best) - brow_line(a)))
+                best = v;
+        return best;
+    }
+    void mark(const std::string& name, double v, double s) {
+        sheet_.landmarks[name] = at(row_of(v), half_count_ - 1 + column_of(s));
+    }
+    void mark_pair(const std::string& name, double v, double s) {
+        const auto r = row_of(v), c = column_of(s);
+        sheet_.landmarks[name + "_left"] = at(r, half_count_ - 1 + c);
+        sheet_.landmarks[name + "_right"] = at(r, half_count_ - 1 - c);
+    }
+    void add_landmarks() {
+        using namespace place;
+        mark_pair("brow_inner", brow_row(11), 11);
+        mark_pair("brow_middle", brow_row(32), 32);
+        mark_pair("brow_outer", brow_row(51), 51);
+        mark_pair("eye_inner", eye, inner_canthus);
+        mark_pair("eye_outer", eye, outer_canthus);
+        mark_pair("nose_saddle", eye, 9.5);
+        mark_pair("nose_wing", -45.5, wing);
+        mark("nose_tip", pronasale, 0);
+        mark_pair("mouth_corner", stomion, mouth_corner);
+        mark("upper_lip_outer", upper_lip, 0);
+        mark("upper_lip_inner", stomion, 0);
+        sheet_.landmarks["lower_lip_inner"] = at(row_of(stomion, true), half_count_ - 1);
+        mark("lower_lip_outer", lower_lip, 0);
+        mark("chin", pogonion, 0);
+    }
+
+    std::vector<double> half_;
+    std::uint32_t half_count_;
+    Rows rows_;
+    Loft loft_;
+    Sheet sheet_;
+    std::vector<std::uint32_t> index_;  // of the vertex at a row and a column
+};
+
 }  // namespace
 
 std::uint32_t Sheet::nearest(double s, double t) const {
@@ -213,122 +377,6 @@ double cornea_radius(double across_eye, double t) {
 
 double brow_line(double a) { return 11 + 4.5 * smooth_step(8, 34, a) - 6 * smooth_step(34, 58, a); }
 
-Sheet make_sheet() {
-    using namespace place;
-    const auto half = subdivide(0, {{philtrum_crest, 0.8},
-                                    {inner_canthus, 0.83},
-                                    {wing, 0.6},
-                                    {mouth_corner, 0.85},
-                                    {outer_canthus, 0.92},
-                                    {54, 1.25},
-                                    {zygion, 1.6},
-                                    {gonion, 2.2},
-                                    {98, 2.7},
-                                    {rim, 3.1}});
-    auto rows = subdivide(top, {{60, 2},
-                                {42, 1.3},
-                                {24, 1.2},
-                                {8, 0.95},
-                                {upper_lid, 0.65},
-                                {eye, 0.5},
-                                {lower_lid, 0.5},
-                                {-20, 0.7},
-                                {-34, 0.9},
-                                {pronasale, 0.8},
-                                {-47, 0.65},
-                                {subnasale, 0.45},
-                                {upper_lip, 0.8},
-                                {stomion, 0.42}});
-    const auto lower = subdivide(
-        stomion, {{lower_lip, 0.5}, {sulcus, 0.7}, {pogonion, 0.9}, {gnathion, 0.95}, {-132, 1.2}, {bottom, 2.5}});
-    const auto mouth_row = static_cast<std::uint32_t>(rows.size() - 1);
-    rows.insert(rows.end(), lower.begin(), lower.end());
-
-    const auto half_count = static_cast<std::uint32_t>(half.size());
-    Sheet sheet;
-    sheet.columns = 2 * half_count - 1;
-    sheet.row_v = rows;
-    const Loft loft;
-    std::vector<std::uint32_t> index(rows.size() * sheet.columns);
-    const auto at = [&](std::size_t r, std::size_t c) -> std::uint32_t& { return index[r * sheet.columns + c]; };
-    for (std::uint32_t r = 0; r < rows.size(); ++r) {
-        for (std::uint32_t c = 0; c < sheet.columns; ++c) {
-            const double s = c + 1 < half_count ? -half[half_count - 1 - c] : half[c + 1 - half_count];
-            if (r == mouth_row + 1 && std::abs(s) >= mouth_corner) {
-                at(r, c) = at(mouth_row, c);
-                continue;
-            }
-            SheetVertex p;
-            p.s = s;
-            p.v = rows[r];
-            p.t = p.v > -35 ? eye_height(s, p.v) : mouth_height(s, p.v);
-            p.across_eye = across_eye(s);
-            p.base = loft(s, p.t);
-            p.row = r;
-            p.column = c;
-            at(r, c) = static_cast<std::uint32_t>(sheet.vertices.size());
-            sheet.lower_lip_side.push_back(r > mouth_row);
-            sheet.regions.push_back(region_of(p));
-            sheet.vertices.push_back(p);
-        }
-        const auto& middle = sheet.vertices[at(r, half_count - 1)];
-        sheet.row_t.push_back(middle.t);
-        sheet.row_midline_base_z_mm.push_back(middle.base.z());
-    }
-    sheet.mirror.resize(sheet.vertices.size());
-    for (std::uint32_t r = 0; r < rows.size(); ++r)
-        for (std::uint32_t c = 0; c < sheet.columns; ++c) sheet.mirror[at(r, c)] = at(r, sheet.columns - 1 - c);
-
-    for (std::uint32_t r = 0; r + 1 < rows.size(); ++r) {
-        if (r == mouth_row) continue;  // the two rows of the mouth touch, they are not joined
-        for (std::uint32_t c = 0; c + 1 < sheet.columns; ++c) {
-            const std::array<std::uint32_t, 4> quad = {at(r, c), at(r + 1, c), at(r + 1, c + 1), at(r, c + 1)};
-            sheet.faces.add(quad);
-        }
-    }
-
-    const auto row_of = [&](double v, bool last = false) {
-        std::uint32_t best = 0;
-        for (std::uint32_t r = 0; r < rows.size(); ++r)
-            if (std::abs(rows[r] - v) < std::abs(rows[best] - v) || (last && rows[r] == rows[best])) best = r;
-        return best;
-    };
-    const auto column_of = [&](double s) {
-        std::uint32_t best = 0;
-        for (std::uint32_t c = 0; c < half_count; ++c)
-            if (std::abs(half[c] - s) < std::abs(half[best] - s)) best = c;
-        return best;
-    };
-    const auto mark = [&](const std::string& name, double v, double s) {
-        sheet.landmarks[name] = at(row_of(v), half_count - 1 + column_of(s));
-    };
-    const auto mark_pair = [&](const std::string& name, double v, double s) {
-        const auto r = row_of(v), c = column_of(s);
-        sheet.landmarks[name + "_left"] = at(r, half_count - 1 + c);
-        sheet.landmarks[name + "_right"] = at(r, half_count - 1 - c);
-    };
-    const auto brow_row = [&](double a) {  // the sheet row that runs through the brow line there
-        double best = 0;
-        for (const double v : rows)
-            if (v > -2 && std::abs(eye_height(a, v) - brow_line(a)) < std::abs(eye_height(a, best) - brow_line(a)))
-                best = v;
-        return best;
-    };
-    mark_pair("brow_inner", brow_row(11), 11);
-    mark_pair("brow_middle", brow_row(32), 32);
-    mark_pair("brow_outer", brow_row(51), 51);
-    mark_pair("eye_inner", eye, inner_canthus);
-    mark_pair("eye_outer", eye, outer_canthus);
-    mark_pair("nose_saddle", eye, 9.5);
-    mark_pair("nose_wing", -45.5, wing);
-    mark("nose_tip", pronasale, 0);
-    mark_pair("mouth_corner", stomion, mouth_corner);
-    mark("upper_lip_outer", upper_lip, 0);
-    mark("upper_lip_inner", stomion, 0);
-    sheet.landmarks["lower_lip_inner"] = at(row_of(stomion, true), half_count - 1);
-    mark("lower_lip_outer", lower_lip, 0);
-    mark("chin", pogonion, 0);
-    return sheet;
-}
+Sheet make_sheet() { return SheetMaker().make(); }
 
 }  // namespace mimik::synthesis

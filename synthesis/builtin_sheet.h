@@ -45,7 +45,7 @@ struct Sheet {
     std::vector<std::string> regions;
     std::uint32_t columns = 0;
 
-    /// The vertex nearest to a place of the mean face (rows below the mouth's row only if `below`).
+    /// The vertex nearest to a place of the mean face.
     [[nodiscard]] std::uint32_t nearest(double s, double t) const;
 };
 

@@ -162,11 +162,9 @@ private:
             return stem == "generic_neutral_mesh" || stem.starts_with("eyeLook") || stem.starts_with("PupilDilate");
         });
         std::vector<std::vector<Vector>> deltas(files.size());
-        base::parallel_for(files.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                deltas[i] = read_vertices(files[i]);
-                for (std::size_t v = 0; v < skin_vertices; ++v) deltas[i][v] -= mean_[v];
-            }
+        base::parallel_for_each(files.size(), [&](std::size_t i) {
+            deltas[i] = read_vertices(files[i]);
+            for (std::size_t v = 0; v < skin_vertices; ++v) deltas[i][v] -= mean_[v];
         });
         for (std::size_t i = 0; i < files.size(); ++i) {
             const std::string stem = files[i].stem().string();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fields.h"
 #include "geometry/landmarks.h"
 #include "geometry/range_scan.h"
 #include "synthesis/face_model.h"
@@ -30,8 +31,29 @@ struct ScannerOptions {
     double marking_jitter = 1.0;         ///< scales the marking error, 0.5 (eye corners) to 1.0 mm (brows, chin) rms
     double texture_pixels_per_mm = 2.0;  ///< of the photograph
 
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("spacing_mm", self.spacing_mm);
+        visit("noise_z_mm", self.noise_z_mm);
+        visit("smooth_noise_z_mm", self.smooth_noise_z_mm);
+        visit("smooth_noise_length_mm", self.smooth_noise_length_mm);
+        visit("noise_xy_mm", self.noise_xy_mm);
+        visit("min_normal_z", self.min_normal_z);
+        visit("pitch_deg", self.pitch_deg);
+        visit("yaw_deg", self.yaw_deg);
+        visit("roll_deg", self.roll_deg);
+        visit("translation_mm", self.translation_mm);
+        visit("eye_hole_share", self.eye_hole_share);
+        visit("nostril_hole_share", self.nostril_hole_share);
+        visit("brow_hole_share", self.brow_hole_share);
+        visit("spikes", self.spikes);
+        visit("stray_parts", self.stray_parts);
+        visit("marking_jitter", self.marking_jitter);
+        visit("texture_pixels_per_mm", self.texture_pixels_per_mm);
+    }
     void check() const;  ///< throws InputError naming field, value and range
 };
+static_assert(base::lists_every_field<ScannerOptions>());
 
 /// What one exposure gives. Scanner frame, mm.
 struct SyntheticScan {

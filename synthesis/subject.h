@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fields.h"
 #include "synthesis/face_model.h"
 #include "synthesis/posed_expression.h"
 
@@ -30,8 +31,25 @@ struct VarianceOptions {
     double field_direction_deg = 7.0;     ///< root mean square turn of the direction
     double micro_expression = 0.015;      ///< standard deviation of the weight of every shape, in neutral scans too
 
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("identity", self.identity);
+        visit("amplitude_person", self.amplitude_person);
+        visit("amplitude_performance", self.amplitude_performance);
+        visit("shape", self.shape);
+        visit("asymmetry_person", self.asymmetry_person);
+        visit("asymmetry_performance", self.asymmetry_performance);
+        visit("co_activation", self.co_activation);
+        visit("co_activation_spread", self.co_activation_spread);
+        visit("size_coupling", self.size_coupling);
+        visit("field_length_mm", self.field_length_mm);
+        visit("field_magnitude", self.field_magnitude);
+        visit("field_direction_deg", self.field_direction_deg);
+        visit("micro_expression", self.micro_expression);
+    }
     void check() const;  ///< throws InputError naming field, value and range
 };
+static_assert(base::lists_every_field<VarianceOptions>());
 
 /// A person: the resting face, how they move, and the model's shapes on their face.
 struct Subject {

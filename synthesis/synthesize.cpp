@@ -18,6 +18,7 @@
 #include "database/scan_id.h"
 #include "database/truth.h"
 #include "io/image.h"
+#include "io/json_values.h"
 #include "synthesis/photograph.h"
 
 namespace mimik::synthesis {
@@ -74,42 +75,6 @@ std::vector<database::ImageLandmark> image_landmarks(const SyntheticScan& scan, 
         marks.push_back({mark.name, (mark.position_mm.x() - scan.image_corner_mm.x()) * pixels_per_mm,
                          (scan.image_corner_mm.y() - mark.position_mm.y()) * pixels_per_mm});
     return marks;
-}
-
-json variances_json(const VarianceOptions& v) {
-    return {{"identity", v.identity},
-            {"amplitude_person", v.amplitude_person},
-            {"amplitude_performance", v.amplitude_performance},
-            {"shape", v.shape},
-            {"asymmetry_person", v.asymmetry_person},
-            {"asymmetry_performance", v.asymmetry_performance},
-            {"co_activation", v.co_activation},
-            {"co_activation_spread", v.co_activation_spread},
-            {"size_coupling", v.size_coupling},
-            {"field_length_mm", v.field_length_mm},
-            {"field_magnitude", v.field_magnitude},
-            {"field_direction_deg", v.field_direction_deg},
-            {"micro_expression", v.micro_expression}};
-}
-
-json scanner_json(const ScannerOptions& s) {
-    return {{"spacing_mm", s.spacing_mm},
-            {"noise_z_mm", s.noise_z_mm},
-            {"smooth_noise_z_mm", s.smooth_noise_z_mm},
-            {"smooth_noise_length_mm", s.smooth_noise_length_mm},
-            {"noise_xy_mm", s.noise_xy_mm},
-            {"min_normal_z", s.min_normal_z},
-            {"pitch_deg", s.pitch_deg},
-            {"yaw_deg", s.yaw_deg},
-            {"roll_deg", s.roll_deg},
-            {"translation_mm", s.translation_mm},
-            {"eye_hole_share", s.eye_hole_share},
-            {"nostril_hole_share", s.nostril_hole_share},
-            {"brow_hole_share", s.brow_hole_share},
-            {"spikes", s.spikes},
-            {"stray_parts", s.stray_parts},
-            {"marking_jitter", s.marking_jitter},
-            {"texture_pixels_per_mm", s.texture_pixels_per_mm}};
 }
 
 json model_json(const FaceModel& model) {
@@ -180,9 +145,8 @@ MadeSubject make_subject(const fs::path& folder, const FaceModel& model, const s
     const FaceWindow window = face_window(model, subject.resting_mm);
     const Complexion complexion = draw_complexion(model, subject, window, options.seed);
     std::vector<std::string> lines(tasks.size());
-    base::parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = begin; t < end; ++t)
-            lines[t] = make_scan(folder, model, subject, complexion, tasks[t], window, options, report);
+    base::parallel_for_each(tasks.size(), [&](std::size_t t) {
+        lines[t] = make_scan(folder, model, subject, complexion, tasks[t], window, options, report);
     });
     MadeSubject made;
     for (std::size_t t = 0; t < tasks.size(); ++t) {
@@ -322,12 +286,10 @@ SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model
     // the scans are spread over all of them.
     constexpr std::size_t most_at_a_time = 8;
     for (std::size_t first = 0; first < subjects.size(); first += most_at_a_time)
-        base::parallel_for(
-            std::min(most_at_a_time, subjects.size() - first), 1, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t s = first + begin; s < first + end; ++s)
-                    subjects[s] =
-                        make_subject(folder, model, subject_name(static_cast<int>(s)), tasks, options, report);
-            });
+        base::parallel_for_each(std::min(most_at_a_time, subjects.size() - first), [&](std::size_t k) {
+            const auto name = subject_name(static_cast<int>(first + k));
+            subjects[first + k] = make_subject(folder, model, name, tasks, options, report);
+        });
     report.subjects = subjects.size();
 
     json subject_list = json::array(), scan_list = json::array();
@@ -344,8 +306,8 @@ SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model
                         {"frame", "mm; +x subject's left, +y up, +z out of the face"},
                         {"seed", options.seed},
                         {"expressions", options.expressions},
-                        {"variances", variances_json(options.variances)},
-                        {"scanner", scanner_json(options.scanner)},
+                        {"variances", io::fields_to_json(options.variances)},
+                        {"scanner", io::fields_to_json(options.scanner)},
                         {"face_model", model_json(model)},
                         {"subjects", subject_list},
                         {"scans", scan_list}};

@@ -289,7 +289,7 @@ TEST_F(Animate, exports_leave_out_what_is_no_measured_surface_and_keep_the_displ
     const PreparedTarget target(neutral);
     const WeightedExpression weighted{&model, 1.0};
     const auto animated = animate(target, std::span(&weighted, 1));
-    const auto mesh = to_mesh(animated, target);
+    const auto mesh = to_mesh(animated, neutral);
     std::vector<char> used(mesh.vertices_mm.size(), 0);
     for (const auto corner : mesh.faces.corners) used[corner] = 1;
     EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
@@ -301,7 +301,7 @@ TEST_F(Animate, exports_leave_out_what_is_no_measured_surface_and_keep_the_displ
     ASSERT_EQ(mesh.attributes.size(), 2U);
     EXPECT_EQ(mesh.attributes[0].name, "displacement_mm");
     EXPECT_EQ(mesh.attributes[0].values.size(), 3 * in_quads.size());
-    EXPECT_THROW(write_animated_face("face.stl", animated, target, {}, {}), InputError);
+    EXPECT_THROW(write_animated_face("face.stl", animated, neutral, {}, {}), InputError);
 }
 
 TEST_F(Animate, lengths_are_those_of_the_frame_that_they_are_asked_in) {
@@ -542,164 +542,137 @@ TEST_F(Animate, every_format_says_of_each_vertex_how_it_moved_and_what_was_measu
     const std::vector<NamedMagnitude> names = {{"AU12", 0.5, "mouthSmile"}};
     const database::TemporaryFolder folder;
     for (const auto bridged : {geometry::BridgedVertices::keep, geometry::BridgedVertices::leave_out}) {
-        double largest_mm(std::size_t morph) const {
-            const auto values =
-                floats(json["meshes"][0]["primitives"][0]["targets"][morph]["POSITION"].get<std::size_t>());
-            double largest = 0;
-            for (std::size_t k = 0; k + 2 < values.size(); k += 3)
-                largest = std::max(largest, 1000.0 * std::hypot(values[k], values[k + 1], values[k + 2]));
-            return largest;
+        const ExportOptions options{.average_from_scan = to_average(target), .bridged = bridged};
+        const auto mesh = to_mesh(animated, neutral, options);
+        const auto& moved = mesh.attributes.at(0).values;
+        const auto& origin = mesh.attributes.at(1).values;
+        ASSERT_EQ(mesh.attributes[1].name, "origin");
+        ASSERT_EQ(std::count(origin.begin(), origin.end(), 2.0) > 0, bridged == geometry::BridgedVertices::keep);
+
+        const auto obj = folder.path() / "face.obj", table = folder.path() / "face_vertices.csv";
+        EXPECT_EQ(vertex_values_file(obj), table);
+        EXPECT_THAT(write_animated_face(obj, animated, neutral, names, {}, options),
+                    testing::ElementsAre(HasSubstr(table.string())));
+        const auto text = base::read_text(table);
+        base::CsvReader rows(text, table.string());
+        EXPECT_EQ(io::read_mesh(obj).vertices_mm.size(), mesh.vertices_mm.size());
+        const std::array columns = {rows.column("displacement_mm_x"), rows.column("displacement_mm_y"),
+                                    rows.column("displacement_mm_z")};
+        for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+            ASSERT_TRUE(rows.next()) << v;
+            ASSERT_EQ(rows.number(rows.column("vertex")), static_cast<double>(v + 1));
+            ASSERT_EQ(rows.number(rows.column("origin")), origin[v]);
+            for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(rows.number(columns[c]), moved[3 * v + c]);
         }
-        std::vector<std::uint8_t> bytes;
-        std::size_t binary = 0;
-        nlohmann::json json;
-    };
+        EXPECT_FALSE(rows.next());
 
-    TEST_F(Animate, every_format_says_of_each_vertex_how_it_moved_and_what_was_measured) {
-        const auto model = smile();
-        auto neutral = target_->neutral;
-        auto& grid = neutral.grid;
-        const Point mouth = neutral.landmarks.position_mm("mouth_corner_left");
-        for (std::size_t v = 0; v < grid.size(); ++v)
-            if (grid.measured(v) && (grid.vertices_mm[v] - mouth).norm() < 5)
-                grid.origin[v] = geometry::VertexOrigin::bridged;
-        const PreparedTarget target(neutral);
-        const WeightedExpression weighted{&model, 0.5};
-        const auto animated = animate(target, std::span(&weighted, 1));
-        const std::vector<NamedMagnitude> names = {{"AU12", 0.5, "mouthSmile"}};
-        const database::TemporaryFolder folder;
-        for (const auto bridged : {geometry::BridgedVertices::keep, geometry::BridgedVertices::leave_out}) {
-            const ExportOptions options{.average_from_scan = to_average(target), .bridged = bridged};
-            const auto mesh = to_mesh(animated, neutral, options);
-            const auto& moved = mesh.attributes.at(0).values;
-            const auto& origin = mesh.attributes.at(1).values;
-            ASSERT_EQ(mesh.attributes[1].name, "origin");
-            ASSERT_EQ(std::count(origin.begin(), origin.end(), 2.0) > 0, bridged == geometry::BridgedVertices::keep);
-
-            const auto obj = folder.path() / "face.obj", table = folder.path() / "face_vertices.csv";
-            EXPECT_EQ(vertex_values_file(obj), table);
-            EXPECT_THAT(write_animated_face(obj, animated, target, names, {}, options),
-                        testing::ElementsAre(HasSubstr(table.string())));
-            const auto text = base::read_text(table);
-            base::CsvReader rows(text, table.string());
-            EXPECT_EQ(io::read_mesh(obj).vertices_mm.size(), mesh.vertices_mm.size());
-            const std::array columns = {rows.column("displacement_mm_x"), rows.column("displacement_mm_y"),
-                                        rows.column("displacement_mm_z")};
-            for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
-                ASSERT_TRUE(rows.next()) << v;
-                ASSERT_EQ(rows.number(rows.column("vertex")), static_cast<double>(v + 1));
-                ASSERT_EQ(rows.number(rows.column("origin")), origin[v]);
-                for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(rows.number(columns[c]), moved[3 * v + c]);
-            }
-            EXPECT_FALSE(rows.next());
-
-            EXPECT_TRUE(write_animated_face(folder.path() / "face.glb", animated, target, names, {}, options).empty());
-            const ReadGlb glb(folder.path() / "face.glb");
-            EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
-            const auto& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
-            const auto origins = glb.floats(attributes["_ORIGIN"].get<std::size_t>());
-            const auto displacements = glb.floats(attributes["_DISPLACEMENT_MM"].get<std::size_t>());
-            EXPECT_EQ(origins, std::vector<float>(origin.begin(), origin.end()));
-            EXPECT_EQ(displacements, std::vector<float>(moved.begin(), moved.end()));
-        }
-        for (const char* file : {"face.ply", "face.vtp", "face.glb"}) EXPECT_TRUE(vertex_values_file(file).empty());
-    }
-
-    double largest_mm(const preprocessing::Face& neutral, const std::vector<Vector>& field) {
-        double largest = 0;
-        for (std::size_t v = 0; v < field.size(); ++v)
-            if (neutral.grid.measured(v)) largest = std::max(largest, field[v].norm());
-        return largest;
-    }
-
-    TEST_F(Animate, morph_targets_hold_the_fields_at_magnitude_one_with_the_name_that_arkit_has) {
-        const database::TemporaryFolder folder;
-        const auto file = folder.path() / "face.glb";
-        const auto left = smile({}, "12L"), both = smile();
-        const PreparedTarget target(target_->neutral);
-        const std::array expressions = {WeightedExpression{&left, 0.5}, WeightedExpression{&both, 0.25}};
-        const auto animated = animate(target, expressions);
-        std::vector<NamedMagnitude> names = {{"AU12_L", 0.5, "mouthSmileLeft"}, {"AU12", 0.25, ""}};
-        EXPECT_TRUE(write_animated_face(file, animated, target_->neutral, names, {}).empty());
-        const ReadGlb glb(file);
+        EXPECT_TRUE(write_animated_face(folder.path() / "face.glb", animated, neutral, names, {}, options).empty());
+        const ReadGlb glb(folder.path() / "face.glb");
         EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
-        const auto& mesh = glb.json["meshes"][0];
-        EXPECT_EQ(mesh["extras"]["targetNames"], nlohmann::json({"AU12_L", "AU12"}));
-        EXPECT_EQ(mesh["extras"]["arkitNames"], nlohmann::json({"mouthSmileLeft", ""}));
-        EXPECT_EQ(mesh["weights"], nlohmann::json({0.5, 0.25}));
-        for (std::size_t k = 0; k < 2; ++k)
-            EXPECT_NEAR(glb.largest_mm(k), largest_mm(target_->neutral, animated.shapes[k].mm), 1e-5);  // 32-bit floats
-        // Not turned round either: the left corner of the mouth goes to the subject's left.
-        const auto values = glb.floats(mesh["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>());
-        double sum_x = 0, sum_field_x = 0;
-        for (std::size_t k = 0; k < values.size(); k += 3) sum_x += 1000.0 * static_cast<double>(values[k]);
-        for (std::size_t v = 0; v < target_->neutral.grid.size(); ++v)
-            if (target_->neutral.grid.measured(v)) sum_field_x += animated.shapes[0].mm[v].x();
-        EXPECT_GT(sum_x * sum_field_x, 0);
-        names[1].name = "AU12_L";
-        EXPECT_THAT(database::message_of<InputError>(
-                        [&] { (void)write_animated_face(file, animated, target_->neutral, names, {}); }),
-                    HasSubstr("two morph targets would be called AU12_L"));
+        const auto& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
+        const auto origins = glb.floats(attributes["_ORIGIN"].get<std::size_t>());
+        const auto displacements = glb.floats(attributes["_DISPLACEMENT_MM"].get<std::size_t>());
+        EXPECT_EQ(origins, std::vector<float>(origin.begin(), origin.end()));
+        EXPECT_EQ(displacements, std::vector<float>(moved.begin(), moved.end()));
     }
+    for (const char* file : {"face.ply", "face.vtp", "face.glb"}) EXPECT_TRUE(vertex_values_file(file).empty());
+}
 
-    TEST_F(Animate, a_parallel_resultant_is_one_morph_target_and_a_remark_says_so) {
-        const database::TemporaryFolder folder;
-        const auto file = folder.path() / "face.glb";
-        const auto left = smile({}, "12L"), both = smile();
-        const PreparedTarget target(target_->neutral);
-        const std::array expressions = {WeightedExpression{&left, 1.0}, WeightedExpression{&both, 1.0}};
-        AnimationOptions options;
-        options.combination = Combination::parallel;
-        const auto animated = animate(target, expressions, options);
-        const std::vector<NamedMagnitude> names = {{"AU12_L", 1.0, "mouthSmileLeft"}, {"AU12", 1.0, ""}};
-        EXPECT_THAT(write_animated_face(file, animated, target_->neutral, names, {}),
-                    testing::ElementsAre(HasSubstr("one, AU12_L+AU12")));
-        const ReadGlb glb(file);
-        EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
-        EXPECT_EQ(glb.json["meshes"][0]["extras"]["targetNames"], nlohmann::json({"AU12_L+AU12"}));
-        EXPECT_EQ(glb.json["meshes"][0]["weights"], nlohmann::json({1.0}));
-        EXPECT_NEAR(glb.largest_mm(0), largest_mm(target_->neutral, animated.field.mm), 1e-5);  // 32-bit floats
-    }
+double largest_mm(const preprocessing::Face& neutral, const std::vector<Vector>& field) {
+    double largest = 0;
+    for (std::size_t v = 0; v < field.size(); ++v)
+        if (neutral.grid.measured(v)) largest = std::max(largest, field[v].norm());
+    return largest;
+}
 
-    TEST_F(Animate, a_picture_beside_the_face_is_not_overwritten_by_its_texture) {
-        const database::TemporaryFolder folder;
-        base::write_atomically(folder.path() / "face.png", "picture");
-        io::write_png(folder.path() / "scan.png", {1, 1, {10, 20, 30}});
-        const auto model = smile();
-        const PreparedTarget target(target_->neutral);
-        const WeightedExpression weighted{&model, 1.0};
-        const auto animated = animate(target, std::span(&weighted, 1));
-        write_animated_face(folder.path() / "face.ply", animated, target_->neutral, {}, folder.path() / "scan.png");
-        EXPECT_EQ(base::read_text(folder.path() / "face.png"), "picture");
-        EXPECT_EQ(base::read_text(folder.path() / "face_texture.png"), base::read_text(folder.path() / "scan.png"));
-        EXPECT_THAT(base::read_text(folder.path() / "face.ply").substr(0, 400), HasSubstr("face_texture.png"));
-    }
+TEST_F(Animate, morph_targets_hold_the_fields_at_magnitude_one_with_the_name_that_arkit_has) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "face.glb";
+    const auto left = smile({}, "12L"), both = smile();
+    const PreparedTarget target(target_->neutral);
+    const std::array expressions = {WeightedExpression{&left, 0.5}, WeightedExpression{&both, 0.25}};
+    const auto animated = animate(target, expressions);
+    std::vector<NamedMagnitude> names = {{"AU12_L", 0.5, "mouthSmileLeft"}, {"AU12", 0.25, ""}};
+    EXPECT_TRUE(write_animated_face(file, animated, target_->neutral, names, {}).empty());
+    const ReadGlb glb(file);
+    EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
+    const auto& mesh = glb.json["meshes"][0];
+    EXPECT_EQ(mesh["extras"]["targetNames"], nlohmann::json({"AU12_L", "AU12"}));
+    EXPECT_EQ(mesh["extras"]["arkitNames"], nlohmann::json({"mouthSmileLeft", ""}));
+    EXPECT_EQ(mesh["weights"], nlohmann::json({0.5, 0.25}));
+    for (std::size_t k = 0; k < 2; ++k)
+        EXPECT_NEAR(glb.largest_mm(k), largest_mm(target_->neutral, animated.shapes[k].mm), 1e-5);  // 32-bit floats
+    // Not turned round either: the left corner of the mouth goes to the subject's left.
+    const auto values = glb.floats(mesh["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>());
+    double sum_x = 0, sum_field_x = 0;
+    for (std::size_t k = 0; k < values.size(); k += 3) sum_x += 1000.0 * static_cast<double>(values[k]);
+    for (std::size_t v = 0; v < target_->neutral.grid.size(); ++v)
+        if (target_->neutral.grid.measured(v)) sum_field_x += animated.shapes[0].mm[v].x();
+    EXPECT_GT(sum_x * sum_field_x, 0);
+    names[1].name = "AU12_L";
+    EXPECT_THAT(database::message_of<InputError>(
+                    [&] { (void)write_animated_face(file, animated, target_->neutral, names, {}); }),
+                HasSubstr("two morph targets would be called AU12_L"));
+}
 
-    TEST_F(Animate, a_texture_that_is_no_picture_is_not_handed_on) {
-        const database::TemporaryFolder folder;
-        base::write_atomically(folder.path() / "key.png", "a text that is nobody's business");
-        const auto model = smile();
-        const PreparedTarget target(target_->neutral);
-        const WeightedExpression weighted{&model, 1.0};
-        const auto animated = animate(target, std::span(&weighted, 1));
-        const std::vector<NamedMagnitude> names = {{"AU12", 1.0, ""}};
-        for (const char* file : {"face.ply", "face.glb"}) {
-            EXPECT_THAT(database::message_of<InputError>([&] {
-                            (void)write_animated_face(folder.path() / file, animated, target_->neutral, names,
-                                                      folder.path() / "key.png");
-                        }),
-                        HasSubstr("key.png: is neither a PNG nor a JPEG image"));
-            EXPECT_FALSE(std::filesystem::exists(folder.path() / file));
-        }
-    }
+TEST_F(Animate, a_parallel_resultant_is_one_morph_target_and_a_remark_says_so) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "face.glb";
+    const auto left = smile({}, "12L"), both = smile();
+    const PreparedTarget target(target_->neutral);
+    const std::array expressions = {WeightedExpression{&left, 1.0}, WeightedExpression{&both, 1.0}};
+    AnimationOptions options;
+    options.combination = Combination::parallel;
+    const auto animated = animate(target, expressions, options);
+    const std::vector<NamedMagnitude> names = {{"AU12_L", 1.0, "mouthSmileLeft"}, {"AU12", 1.0, ""}};
+    EXPECT_THAT(write_animated_face(file, animated, target_->neutral, names, {}),
+                testing::ElementsAre(HasSubstr("one, AU12_L+AU12")));
+    const ReadGlb glb(file);
+    EXPECT_THAT(test::glb_faults(glb.bytes), testing::IsEmpty());
+    EXPECT_EQ(glb.json["meshes"][0]["extras"]["targetNames"], nlohmann::json({"AU12_L+AU12"}));
+    EXPECT_EQ(glb.json["meshes"][0]["weights"], nlohmann::json({1.0}));
+    EXPECT_NEAR(glb.largest_mm(0), largest_mm(target_->neutral, animated.field.mm), 1e-5);  // 32-bit floats
+}
 
-    TEST(AnimationOptions, defaults_and_the_thesis_are_valid_and_negative_smoothing_is_not) {
-        EXPECT_NO_THROW(AnimationOptions{}.check());
-        EXPECT_NO_THROW(AnimationOptions::thesis().check());
-        AnimationOptions options;
-        options.smoothing = -1;
-        EXPECT_THROW(options.check(), InputError);
+TEST_F(Animate, a_picture_beside_the_face_is_not_overwritten_by_its_texture) {
+    const database::TemporaryFolder folder;
+    base::write_atomically(folder.path() / "face.png", "picture");
+    io::write_png(folder.path() / "scan.png", {1, 1, {10, 20, 30}});
+    const auto model = smile();
+    const PreparedTarget target(target_->neutral);
+    const WeightedExpression weighted{&model, 1.0};
+    const auto animated = animate(target, std::span(&weighted, 1));
+    write_animated_face(folder.path() / "face.ply", animated, target_->neutral, {}, folder.path() / "scan.png");
+    EXPECT_EQ(base::read_text(folder.path() / "face.png"), "picture");
+    EXPECT_EQ(base::read_text(folder.path() / "face_texture.png"), base::read_text(folder.path() / "scan.png"));
+    EXPECT_THAT(base::read_text(folder.path() / "face.ply").substr(0, 400), HasSubstr("face_texture.png"));
+}
+
+TEST_F(Animate, a_texture_that_is_no_picture_is_not_handed_on) {
+    const database::TemporaryFolder folder;
+    base::write_atomically(folder.path() / "key.png", "a text that is nobody's business");
+    const auto model = smile();
+    const PreparedTarget target(target_->neutral);
+    const WeightedExpression weighted{&model, 1.0};
+    const auto animated = animate(target, std::span(&weighted, 1));
+    const std::vector<NamedMagnitude> names = {{"AU12", 1.0, ""}};
+    for (const char* file : {"face.ply", "face.glb"}) {
+        EXPECT_THAT(database::message_of<InputError>([&] {
+                        (void)write_animated_face(folder.path() / file, animated, target_->neutral, names,
+                                                  folder.path() / "key.png");
+                    }),
+                    HasSubstr("key.png: is neither a PNG nor a JPEG image"));
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / file));
     }
+}
+
+TEST(AnimationOptions, defaults_and_the_thesis_are_valid_and_negative_smoothing_is_not) {
+    EXPECT_NO_THROW(AnimationOptions{}.check());
+    EXPECT_NO_THROW(AnimationOptions::thesis().check());
+    AnimationOptions options;
+    options.smoothing = -1;
+    EXPECT_THROW(options.check(), InputError);
+}
 
 }  // namespace
 }  // namespace mimik::animation

@@ -344,30 +344,13 @@ TEST(Doctor, holes_of_a_mesh_are_its_inner_rims) {
     EXPECT_FALSE(find_holes(mesh).judged);
 }
 
-TEST(Doctor, spikes_are_the_points_off_their_neighbourhood) {
+TEST(Doctor, spikes_are_told_with_their_share_and_many_of_them_as_a_warning) {
     MadeFace face = make_face();
-    EXPECT_THAT(find_spikes(face.scan, 4.0), IsEmpty());
-    const std::size_t spike = 25 * 61 + 30;
-    face.scan.points_mm[spike].z() += 12;
-    EXPECT_THAT(find_spikes(face.scan, 4.0), testing::ElementsAre(spike));
+    EXPECT_EQ(found(check_scan(loaded(face)), "spikes"), "");
+    face.scan.points_mm[25 * 61 + 30].z() += 12;
     EXPECT_THAT(found(check_scan(loaded(face)), "spikes"), HasSubstr("note: 1 point (0.02 %) more than 4 mm off"));
     for (std::size_t i = 0; i < 20; ++i) face.scan.points_mm[(10 + 3 * i) * 61 + 10].z() += 12;
     EXPECT_THAT(found(check_scan(loaded(face)), "spikes"), HasSubstr("warning: 21 points"));
-}
-
-TEST(Doctor, a_depth_step_is_no_spike) {
-    MadeFace face = make_face();
-    for (std::size_t i = 0; i < face.scan.points_mm.size(); ++i)
-        if (i % 61 >= 30 && i / 61 >= 40) face.scan.points_mm[i].z() += 30;
-    EXPECT_THAT(find_spikes(face.scan, 4.0), IsEmpty());
-}
-
-TEST(Doctor, a_point_far_from_a_cloud_is_a_spike) {
-    geometry::RangeScan cloud;
-    cloud.points_mm = make_face().scan.points_mm;
-    EXPECT_THAT(find_spikes(cloud, 4.0), IsEmpty());
-    cloud.points_mm.emplace_back(0, 0, 150);
-    EXPECT_THAT(find_spikes(cloud, 4.0), testing::ElementsAre(cloud.points_mm.size() - 1));
 }
 
 TEST(Doctor, unreadable_landmarks_do_not_hide_what_is_wrong_with_the_scan) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "database/doctor.h"
+#include "database/one_sided_codes.h"
 #include "tests/database/made_face.h"
 
 namespace mimik::database {
@@ -89,6 +91,11 @@ TEST(NearestScanPoint, skips_unmeasured_points) {
     ASSERT_EQ(nearest.size(), 1U);
     EXPECT_EQ(nearest[0].index, 1U);
     EXPECT_DOUBLE_EQ(nearest[0].distance_mm, 5);
+}
+
+TEST(Options, every_options_default_passes_its_own_check) {
+    EXPECT_NO_THROW(DoctorOptions{}.check());
+    EXPECT_NO_THROW(SideDecisionOptions{}.check());
 }
 
 }  // namespace

@@ -120,16 +120,6 @@ TEST(SurfaceDistance, is_the_same_to_the_bit_on_one_thread_and_on_two) {
     EXPECT_EQ(one.reference_to_test->distance_mm, two.reference_to_test->distance_mm);
 }
 
-TEST(Quantile, is_linear_between_order_statistics) {
-    // numpy.percentile([4, 1, 3, 2], [0, 50, 95, 100]) = 1, 2.5, 3.85, 4
-    const std::vector<double> values = {4, 1, 3, 2};
-    EXPECT_EQ(quantile(values, 0.0), 1.0);
-    EXPECT_EQ(quantile(values, 0.5), 2.5);
-    EXPECT_NEAR(quantile(values, 0.95), 3.85, 1e-15);
-    EXPECT_EQ(quantile(values, 1.0), 4.0);
-    EXPECT_EQ(quantile({7.0}, 0.95), 7.0);
-}
-
 TEST(SurfaceDistance, what_cannot_be_measured_is_refused_by_name) {
     Mesh cloud;
     cloud.vertices_mm = {{0, 0, 0}, {1, 0, 0}};
@@ -143,8 +133,6 @@ TEST(SurfaceDistance, what_cannot_be_measured_is_refused_by_name) {
                 ThrowsMessage<InputError>(HasSubstr("3 entries for 2 vertices")));
     cloud.vertices_mm[1].z() = nan;
     EXPECT_THAT([&] { (void)surface_distance(cloud, reference); }, ThrowsMessage<InputError>(HasSubstr("vertex 1 ")));
-    EXPECT_THAT([&] { (void)quantile({}, 0.5); }, ThrowsMessage<InputError>(HasSubstr("no value")));
-    EXPECT_THAT([&] { (void)quantile({1.0}, 95); }, ThrowsMessage<InputError>(HasSubstr("quantile 95")));
     EXPECT_THAT(
         [&] {
             (void)summarize(std::vector<double>{1.0, nan});

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
+#include "facs/expression_zone.h"
 #include "facs/reference_face.h"
 #include "tests/support/expressions.h"
 

@@ -240,7 +240,7 @@ TEST_F(ExpressionModelTest, a_stored_model_says_how_it_came_about_and_what_diffe
     const std::string kernel = "\"r2logr\"";
     base::write_atomically(copy, text.replace(text.find(kernel), kernel.size(), "\"banana\""));
     EXPECT_THAT(message_of<InputError>([&] { (void)read_expression_model(copy); }),
-                HasSubstr("provenance: kernel: 'banana' is neither r nor r2logr"));
+                HasSubstr("provenance: kernel: 'banana' is none of r, r2logr"));
     auto here = *model.provenance;
     here.mimik_version = "1.2.4";
     here.catalogue = "built-in catalogue";  // the same content by another name
@@ -250,6 +250,8 @@ TEST_F(ExpressionModelTest, a_stored_model_says_how_it_came_about_and_what_diffe
     EXPECT_THAT(differences(*read.provenance, here),
                 testing::ElementsAre("kernel r2logr, here r", "smoothing 0.1, here 30", "anchors off, here on",
                                      HasSubstr("average face")));
+    EXPECT_EQ(variant_suffix(options, {}), "_r2logr_smoothing-0.1_no-anchors");
+    options.smoothing = 0;  // what another kernel than the usual one begins with
     EXPECT_EQ(variant_suffix(options, {}), "_r2logr_no-anchors");
     EXPECT_EQ(variant_suffix({}, {}), "");
 }
@@ -287,7 +289,7 @@ TEST_F(ExpressionModelTest, a_damaged_model_file_is_named) {
     text.replace(text.find("\"similarity\""), 12, "\"simulation\"");
     base::write_atomically(file, text);
     EXPECT_THAT(message_of<InputError>([&] { (void)read_expression_model(file); }),
-                HasSubstr("frame: 'simulation' is neither"));
+                HasSubstr("frame: 'simulation' is none of similarity, affine"));
 }
 
 TEST_F(ExpressionModelTest, hostile_values_are_refused_with_file_and_field) {

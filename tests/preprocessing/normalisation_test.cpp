@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
+#include "preprocessing/preprocess_run.h"
 #include "tests/support/analytic_face.h"
 
 namespace mimik::preprocessing {
@@ -75,6 +76,15 @@ TEST(SimilarityNormalisation, keeps_the_expression_that_the_affine_one_takes_awa
 TEST(SimilarityNormalisation, landmarks_on_one_line_are_refused) {
     const geometry::Landmarks line({{"a", {0, 0, 0}, ""}, {"b", {1, 0, 0}, ""}, {"c", {2, 0, 0}, ""}});
     EXPECT_THROW((void)similarity_normalisation(line, line), NumericalError);
+}
+
+TEST(Options, every_options_default_passes_its_own_check) {
+    EXPECT_NO_THROW(CleaningOptions{}.check());
+    EXPECT_NO_THROW(GriddingOptions{}.check());
+    EXPECT_NO_THROW(AverageFaceOptions{}.check());
+    EXPECT_NO_THROW(RigidAlignmentOptions{}.check());
+    EXPECT_NO_THROW(ScanSteps{}.check());
+    EXPECT_NO_THROW(PreprocessOptions{}.check());
 }
 
 }  // namespace

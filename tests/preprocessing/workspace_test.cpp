@@ -525,6 +525,26 @@ TEST_F(WorkspaceTest, an_expressive_scan_without_a_chin_mark_is_kept_with_the_af
     EXPECT_THAT(face.remarks, testing::Contains(HasSubstr("'chin' is missing")));
 }
 
+TEST_F(WorkspaceTest,
+       landmarks_without_a_partner_on_the_average_face_are_remarked_by_name_and_only_where_there_are_any) {
+    EXPECT_THAT(preprocess().remarks, testing::IsEmpty());
+    const auto marks = geometry::transformed(
+        test::AnalyticFace{test::analytic_scales[1], test::analytic_smile_mm}.landmarks(), test::analytic_pose(3));
+    std::vector<geometry::Landmark> others;
+    for (const auto& mark : marks.all())
+        if (mark.name != "upper_lip_outer" && mark.name != "lower_lip_outer") others.push_back(mark);
+    others.push_back({"scar", marks.position_mm("nose_tip") + Point(12, 0, -8), ""});
+    database::write_lm3(database_ / "bs001" / "bs001_LFAU_12_0.lm3",
+                        database::to_bosphorus_labels(geometry::Landmarks(others)));
+    const auto report = preprocess();
+    ASSERT_EQ(report.remarks.size(), 1U);
+    EXPECT_EQ(report.remarks[0].scan, "bs001_LFAU_12_0");
+    EXPECT_THAT(report.remarks[0].remark,
+                AllOf(HasSubstr("the scan lacks upper_lip_outer, lower_lip_outer of the average face"),
+                      HasSubstr("the average face lacks scar of the scan")));
+    EXPECT_THAT(preprocess().remarks, testing::IsEmpty());  // of the faces written, as all remarks are
+}
+
 TEST(AlignToNeutral, a_jaw_that_rests_elsewhere_turns_the_forehead_less_than_if_it_counted_in_full) {
     // The whole face is said to hold still, but the jaw of the second scan is a little open: below y = -10 the skin
     // goes back, 1 mm at the chin. Were all points alike, that would turn the head.

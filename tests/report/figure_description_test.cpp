@@ -142,7 +142,7 @@ protected:
 };
 
 TEST_F(LoadFigure, reads_what_the_description_names_beside_it) {
-    io::write_mesh(folder_ / "face.ply", square(10));
+    io::write_mesh(folder_ / "face.ply", figures::square(10));
     io::write_png(folder_ / "skin.png", io::Image{1, 1, {200, 150, 120}});
     (void)written("marks.csv", "name,x,y,z\nnose_tip,0.1,0.2,0.3\n");
     (void)written("controls.csv", "name,x,y,z,kind\na,1,0,0,muscle\nb,0,1,0,wrinkle\nc,0,0,1,muscle\n");
@@ -198,8 +198,8 @@ TEST_F(LoadFigure, a_unit_scales_a_scan_as_it_scales_a_mesh_and_faults_name_the_
 
 TEST_F(LoadFigure, the_scan_and_the_photograph_of_a_hidden_subject_are_refused) {
     fs::create_directories(folder_ / "bs000");
-    io::write_mesh(folder_ / "bs000" / "face.ply", square(10));
-    io::write_mesh(folder_ / "face.ply", square(10));
+    io::write_mesh(folder_ / "bs000" / "face.ply", figures::square(10));
+    io::write_mesh(folder_ / "face.ply", figures::square(10));
     EXPECT_NO_THROW((void)load_figure({.panels = {{.mesh = folder_ / "bs000" / "face.ply"}}}));
     (void)written("Unallowed_subjects.txt", "BS000\n");
     EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "bs000" / "face.ply"}}}); }),
@@ -213,7 +213,7 @@ TEST_F(LoadFigure, the_scan_and_the_photograph_of_a_hidden_subject_are_refused) 
 }
 
 TEST_F(LoadFigure, an_unknown_kind_of_control_is_refused_with_its_line) {
-    io::write_mesh(folder_ / "face.ply", square(10));
+    io::write_mesh(folder_ / "face.ply", figures::square(10));
     const auto controls = written("controls.csv", "name,x,y,z,kind\na,1,0,0,muscle\nb,0,1,0,bone\n");
     const std::string error =
         message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "face.ply", .controls = controls}}}); });
@@ -223,7 +223,7 @@ TEST_F(LoadFigure, an_unknown_kind_of_control_is_refused_with_its_line) {
 TEST_F(LoadFigure, a_missing_file_and_a_missing_texture_are_named) {
     EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "none.ply"}}}); }),
                 HasSubstr("none.ply"));
-    io::write_mesh(folder_ / "face.ply", square(10));
+    io::write_mesh(folder_ / "face.ply", figures::square(10));
     EXPECT_THAT(message_of([&] { (void)load_figure({.panels = {{.mesh = folder_ / "face.ply", .textured = true}}}); }),
                 AllOf(HasSubstr("face.ply"), HasSubstr("no texture")));
 }

@@ -206,5 +206,11 @@ TEST_F(Synthesize, a_folder_in_use_and_a_folder_without_truth_are_named) {
     EXPECT_THROW((void)synthesize_database(folder_ / "other", *model, options_), InputError);
 }
 
+TEST(Options, every_options_default_passes_its_own_check) {
+    EXPECT_NO_THROW(VarianceOptions{}.check());
+    EXPECT_NO_THROW(ScannerOptions{}.check());
+    EXPECT_NO_THROW(SynthesizeOptions{}.check());
+}
+
 }  // namespace
 }  // namespace mimik::synthesis
