@@ -20,10 +20,10 @@ std::pair<geometry::Mesh, geometry::Mesh> half_a_smile(const synthesis::FaceMode
 
 TEST(Samples, a_smile_lifts_the_left_corner_of_the_mouth_alone) {
     const auto model = synthesis::make_builtin_face_model();
-    const auto [neutral, smiling] = half_a_smile(*model, 1);
+    const auto faces = half_a_smile(*model, 1);
     const auto moved_mm = [&](const char* landmark) {
         const auto v = model->landmark_vertices().at(landmark);
-        return geometry::Vector(smiling.vertices_mm[v] - neutral.vertices_mm[v]);
+        return geometry::Vector(faces.second.vertices_mm[v] - faces.first.vertices_mm[v]);
     };
     EXPECT_GT(moved_mm("mouth_corner_left").y(), 4);
     EXPECT_GT(moved_mm("mouth_corner_left").x(), 2);  // to the subject's left

@@ -79,7 +79,7 @@ class NearestLandmark : public Method {
 public:
     [[nodiscard]] std::string name() const override { return "nearest-landmark"; }
     [[nodiscard]] SourceKind needs() const override { return SourceKind::one_source; }
-    [[nodiscard]] std::unique_ptr<const Learner> learner(const Subject&) const override {
+    [[nodiscard]] std::unique_ptr<const Learner> learner(const LearningTask&) const override {
         return std::make_unique<LandmarkLearner>();
     }
 };
