@@ -85,9 +85,7 @@ std::vector<std::string> write_glb_face(const std::filesystem::path& file, const
         for (const auto v : source) morph.displacement_mm.push_back(turn * (*shape.displacement_mm)[kept[v]]);
         mesh.morph_targets.push_back(std::move(morph));
     }
-    io::GlbScene scene;
-    scene.meshes.push_back(std::move(mesh));
-    io::write_glb(file, scene);
+    io::write_glb(file, mesh);
     return remarks;
 }
 

@@ -14,9 +14,9 @@ const char* to_string(SourceKind kind) {
     return kind == SourceKind::none ? "none" : kind == SourceKind::one_source ? "one source" : "mean";
 }
 
-std::unique_ptr<const Transfer> learn(const Method& method, const Subject& subject,
+std::unique_ptr<const Transfer> learn(const Method& method, const LearningTask& task,
                                       std::span<const modeling::Performance> performances) {
-    const auto learner = method.learner(subject);
+    const auto learner = method.learner(task);
     std::vector<LessonPointer> lessons;
     for (const auto& performance : performances) lessons.push_back(learner->study(performance));
     return learner->learn(lessons);

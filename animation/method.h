@@ -51,7 +51,7 @@ enum class SourceKind {
 [[nodiscard]] const char* to_string(SourceKind kind);  ///< "none", "one source", "mean"
 
 /// What everybody who learns an expression shares. References.
-struct Subject {
+struct LearningTask {
     const facs::Expression& expression;
     const preprocessing::AverageFace& average;
     const facs::FacsCatalogue& catalogue;
@@ -69,11 +69,11 @@ public:
     /// Methods with equal keys take the same lessons, which are then studied once for all of them.
     [[nodiscard]] virtual std::string lessons_key() const { return name(); }
     /// @throws InputError if the expression cannot be learned at all.
-    [[nodiscard]] virtual std::unique_ptr<const Learner> learner(const Subject& subject) const = 0;
+    [[nodiscard]] virtual std::unique_ptr<const Learner> learner(const LearningTask& task) const = 0;
 };
 
 /// All at once, for who has a few performances: study each, then learn.
-[[nodiscard]] std::unique_ptr<const Transfer> learn(const Method& method, const Subject& subject,
+[[nodiscard]] std::unique_ptr<const Transfer> learn(const Method& method, const LearningTask& task,
                                                     std::span<const modeling::Performance> performances);
 
 using MethodPointer = std::shared_ptr<const Method>;

@@ -48,8 +48,8 @@ private:
 
 class SparseLearner : public Learner {
 public:
-    SparseLearner(const Subject& subject, const SparseMethod::Setting& setting)
-        : setting_(setting), gauge_(subject.catalogue, subject.expression, subject.average, setting.model) {}
+    SparseLearner(const LearningTask& task, const SparseMethod::Setting& setting)
+        : setting_(setting), gauge_(task.catalogue, task.expression, task.average, setting.model) {}
 
     [[nodiscard]] LessonPointer study(const modeling::Performance& performance) const override {
         return std::make_shared<const SparseLesson>(gauge_.measure(performance.neutral, performance.expressive));
@@ -80,8 +80,8 @@ SparseMethod::SparseMethod(Setting setting) : setting_(std::move(setting)) {
 
 std::string SparseMethod::lessons_key() const { return "sparse" + base::field_text(setting_.model); }
 
-std::unique_ptr<const Learner> SparseMethod::learner(const Subject& subject) const {
-    return std::make_unique<SparseLearner>(subject, setting_);
+std::unique_ptr<const Learner> SparseMethod::learner(const LearningTask& task) const {
+    return std::make_unique<SparseLearner>(task, setting_);
 }
 
 }  // namespace mimik::animation

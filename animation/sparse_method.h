@@ -23,7 +23,7 @@ public:
     [[nodiscard]] std::string name() const override { return setting_.name; }
     [[nodiscard]] SourceKind needs() const override { return setting_.needs; }
     [[nodiscard]] std::string lessons_key() const override;
-    [[nodiscard]] std::unique_ptr<const Learner> learner(const Subject& subject) const override;
+    [[nodiscard]] std::unique_ptr<const Learner> learner(const LearningTask& task) const override;
 
     [[nodiscard]] const modeling::ModelOptions& model_options() const { return setting_.model; }
     [[nodiscard]] const AnimationOptions& animation_options() const { return setting_.animation; }

@@ -58,7 +58,7 @@ public:
 
 }  // namespace
 
-std::unique_ptr<const Learner> TrueFieldMethod::learner(const Subject&) const {
+std::unique_ptr<const Learner> TrueFieldMethod::learner(const LearningTask&) const {
     return std::make_unique<TrueFieldLearner>();
 }
 

@@ -18,7 +18,7 @@ public:
     [[nodiscard]] SourceKind needs() const override { return needs_; }
     [[nodiscard]] bool needs_truth() const override { return true; }
     [[nodiscard]] std::string lessons_key() const override { return "true field"; }
-    [[nodiscard]] std::unique_ptr<const Learner> learner(const Subject& subject) const override;
+    [[nodiscard]] std::unique_ptr<const Learner> learner(const LearningTask& task) const override;
 
 private:
     std::string name_, title_;

@@ -13,9 +13,9 @@ namespace mimik::evaluation {
 using database::ScanId;
 using geometry::Vector;
 
-LessonBook::LessonBook(const PerformanceReader& reader, const animation::Subject& subject,
+LessonBook::LessonBook(const PerformanceReader& reader, const animation::LearningTask& task,
                        std::span<const animation::MethodPointer> methods, FailureList& failures, std::size_t bytes)
-    : reader_(reader), expression_(subject.expression.code()), failures_(failures), room_(bytes) {
+    : reader_(reader), expression_(task.expression.code()), failures_(failures), room_(bytes) {
     std::vector<std::string> keys;
     for (const auto& method : methods) {
         const auto key = method->lessons_key();
@@ -26,7 +26,7 @@ LessonBook::LessonBook(const PerformanceReader& reader, const animation::Subject
         learner_names_.push_back(method->name());
         takes_lessons_.push_back(method->needs() != animation::SourceKind::none ? 1 : 0);
         try {
-            learners_.push_back(method->learner(subject));
+            learners_.push_back(method->learner(task));
         } catch (const std::exception& e) {
             learners_.push_back(nullptr);
             failures_.add(fmt::format("{} by {}: no model of any source: {}", expression_, method->name(), e.what()));
@@ -146,11 +146,11 @@ Taken take(const PerformanceReader& reader, const LessonBook& book, const ScanId
 
 }  // namespace
 
-Cast gather_cast(const PerformanceReader& reader, const animation::Subject& subject,
+Cast gather_cast(const PerformanceReader& reader, const animation::LearningTask& task,
                  std::span<const ScanId> performances, std::span<const animation::MethodPointer> methods,
                  FailureList& failures) {
     const auto& average = reader.workspace().average();
-    Cast cast{subject.expression, {}, {}, LessonBook(reader, subject, methods, failures)};
+    Cast cast{task.expression, {}, {}, LessonBook(reader, task, methods, failures)};
     TrueZone zone(average);
     in_batches(
         performances, [&](const ScanId& id) { return take(reader, cast.lessons, id, failures); },
@@ -161,10 +161,10 @@ Cast gather_cast(const PerformanceReader& reader, const animation::Subject& subj
             cast.participants.push_back(std::move(*own.id));
         });
     if (!reader.has_truth()) {
-        cast.zone = active_zone_from_catalogue(subject.expression, average, subject.catalogue);
+        cast.zone = active_zone_from_catalogue(task.expression, average, task.catalogue);
     } else if (!cast.participants.empty()) {
-        cast.zone = zone.zone(subject.expression);
-        add_zones_of_units(cast.zone, reader, subject.catalogue, performances, failures);
+        cast.zone = zone.zone(task.expression);
+        add_zones_of_units(cast.zone, reader, task.catalogue, performances, failures);
     }
     return cast;
 }

@@ -18,8 +18,8 @@ namespace mimik::evaluation {
 /// are held, up to `bytes`; the rest is studied again whenever it is asked for.
 class LessonBook {
 public:
-    /// References are kept, also to what `subject` refers to.
-    LessonBook(const PerformanceReader& reader, const animation::Subject& subject,
+    /// References are kept, also to what `task` refers to.
+    LessonBook(const PerformanceReader& reader, const animation::LearningTask& task,
                std::span<const animation::MethodPointer> methods, FailureList& failures,
                std::size_t bytes = std::size_t{256} << 20);
 
@@ -63,7 +63,7 @@ struct Cast {
 /// (an emotion) has the union of its own zone and of its AUs': of each the true one over the same subjects' scans of
 /// that AU alone, or the one that the catalogue draws where nobody shows it. Who cannot be read takes no part, who
 /// cannot be studied is no source of that method; both are added to `failures`.
-[[nodiscard]] Cast gather_cast(const PerformanceReader& reader, const animation::Subject& subject,
+[[nodiscard]] Cast gather_cast(const PerformanceReader& reader, const animation::LearningTask& task,
                                std::span<const database::ScanId> performances,
                                std::span<const animation::MethodPointer> methods, FailureList& failures);
 

@@ -309,54 +309,15 @@ Json mesh_json(const GlbMesh& source, std::optional<std::size_t> material, Buffe
     return json;
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> encode_glb(const GlbScene& scene) {
-    if (scene.meshes.empty()) throw InputError("a GLB file needs at least one mesh");
-    Json json = {{"asset", {{"version", "2.0"}, {"generator", "Mimik"}}}, {"scene", 0}};
-    if (!scene.extras.empty()) json["asset"]["extras"] = object_of(scene.extras);
-    Buffer buffer;
-    Json nodes = Json::array(), roots = Json::array(), meshes = Json::array(), materials = Json::array(),
-         textures = Json::array(), images = Json::array();
-    for (const auto& mesh : scene.meshes) {
-        check(mesh);
-        // Skin: no metal, rather dull. Scans are open surfaces, so both sides are drawn.
-        Json surface = {{"metallicFactor", 0.0}, {"roughnessFactor", 0.8}};
-        if (!mesh.texture_png.empty()) {
-            images.push_back({{"mimeType", "image/png"}, {"bufferView", buffer.add_image(mesh.texture_png)}});
-            textures.push_back({{"sampler", 0}, {"source", images.size() - 1}});
-            surface["baseColorTexture"] = {{"index", textures.size() - 1}};
-        } else if (mesh.colours.empty()) {
-            surface["baseColorFactor"] = {0.8, 0.62, 0.53, 1.0};
-        }
-        materials.push_back({{"name", mesh.name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}});
-        meshes.push_back(mesh_json(mesh, materials.size() - 1, buffer));
-        roots.push_back(nodes.size());
-        nodes.push_back({{"name", mesh.name}, {"mesh", meshes.size() - 1}});
-    }
-    json["scenes"] = Json::array({{{"nodes", roots}}});
-    json["nodes"] = nodes;
-    json["meshes"] = meshes;
-    json["materials"] = materials;
-    if (!textures.empty()) {
-        json["textures"] = textures;
-        json["images"] = images;
-        json["samplers"] =
-            Json::array({{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33071}}});
-    }
-    auto binary = buffer.bytes();
-    json["accessors"] = std::move(buffer.accessors);
-    json["bufferViews"] = std::move(buffer.views);
-    json["buffers"] = Json::array({{{"byteLength", binary.size()}}});
+/// Header and the two chunks of a GLB file.
+std::vector<std::uint8_t> framed(std::string text, std::string binary) {
     binary.resize((binary.size() + 3) / 4 * 4);
-    auto text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
-
     constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
     const auto length = header_bytes + 2 * chunk_header_bytes + text.size() + binary.size();
     if (length > std::numeric_limits<std::uint32_t>::max())
         throw InputError(
-            fmt::format("a GLB file holds at most 4 GB, and this scene needs {} bytes; export fewer shapes", length));
+            fmt::format("a GLB file holds at most 4 GB, and this mesh needs {} bytes; export fewer shapes", length));
     std::string out;
     out.reserve(length);
     out += "glTF";
@@ -371,10 +332,42 @@ std::vector<std::uint8_t> encode_glb(const GlbScene& scene) {
     return {out.begin(), out.end()};
 }
 
-void write_glb(const std::filesystem::path& file, const GlbScene& scene) {
+}  // namespace
+
+std::vector<std::uint8_t> encode_glb(const GlbMesh& mesh) {
+    check(mesh);
+    Buffer buffer;
+    // Skin: no metal, rather dull. Scans are open surfaces, so both sides are drawn.
+    Json surface = {{"metallicFactor", 0.0}, {"roughnessFactor", 0.8}};
+    const bool textured = !mesh.texture_png.empty();
+    const auto image = textured ? buffer.add_image(mesh.texture_png) : 0;
+    if (textured)
+        surface["baseColorTexture"] = {{"index", 0}};
+    else if (mesh.colours.empty())
+        surface["baseColorFactor"] = {0.8, 0.62, 0.53, 1.0};
+    Json json = {{"asset", {{"version", "2.0"}, {"generator", "Mimik"}}}, {"scene", 0}};
+    if (!mesh.asset_extras.empty()) json["asset"]["extras"] = object_of(mesh.asset_extras);
+    json["scenes"] = Json::array({{{"nodes", {0}}}});
+    json["nodes"] = Json::array({{{"name", mesh.name}, {"mesh", 0}}});
+    json["meshes"] = Json::array({mesh_json(mesh, 0, buffer)});
+    json["materials"] = Json::array({{{"name", mesh.name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}}});
+    if (textured) {
+        json["textures"] = Json::array({{{"sampler", 0}, {"source", 0}}});
+        json["images"] = Json::array({{{"mimeType", "image/png"}, {"bufferView", image}}});
+        json["samplers"] =
+            Json::array({{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33071}}});
+    }
+    auto binary = buffer.bytes();
+    json["accessors"] = std::move(buffer.accessors);
+    json["bufferViews"] = std::move(buffer.views);
+    json["buffers"] = Json::array({{{"byteLength", binary.size()}}});
+    return framed(json.dump(-1, ' ', false, Json::error_handler_t::replace), std::move(binary));
+}
+
+void write_glb(const std::filesystem::path& file, const GlbMesh& mesh) {
     std::vector<std::uint8_t> bytes;
     try {
-        bytes = encode_glb(scene);
+        bytes = encode_glb(mesh);
     } catch (const InputError& e) {
         throw InputError(fmt::format("{}: not written: {}", file.string(), e.what()));
     } catch (const NumericalError& e) {

@@ -32,21 +32,18 @@ struct GlbMesh {
     std::vector<MorphTarget> morph_targets;
     std::vector<geometry::VertexAttribute>
         attributes;  ///< kept as application's own: "origin" as _ORIGIN; 1 to 4 components
-    std::vector<std::pair<std::string, std::string>> extras;  ///< kept in mesh.extras beside targetNames
+    std::vector<std::pair<std::string, std::string>> extras;        ///< kept in mesh.extras beside targetNames
+    std::vector<std::pair<std::string, std::string>> asset_extras;  ///< kept in asset.extras, e.g. the target's name
 };
 
-struct GlbScene {
-    std::vector<GlbMesh> meshes;
-    std::vector<std::pair<std::string, std::string>> extras;  ///< kept in asset.extras, e.g. the target's name
-};
-
-/// glTF 2.0, binary: metres, v counted downward, 32-bit floats. Vertices that no triangle uses are left out (so bridged
-/// or outside vertices may hold NaN). Morph targets carry the change of the normals too; mesh.extras.targetNames names
-/// them; if ARKit has any of them, mesh.extras.arkitNames has its names in the same order, "" where there is none.
-/// Attributes are written in their own units under their names in capitals after an underscore, as glTF asks.
+/// One mesh as glTF 2.0, binary: metres, v counted downward, 32-bit floats. Vertices that no triangle uses are left out
+/// (so bridged or outside vertices may hold NaN). Morph targets carry the change of the normals too;
+/// mesh.extras.targetNames names them; if ARKit has any of them, mesh.extras.arkitNames has its names in the same
+/// order, "" where there is none. Attributes are written in their own units under their names in capitals after an
+/// underscore, as glTF asks.
 /// @throws InputError naming the mesh and the part that does not fit; NumericalError for what is not finite in 32 bits.
-[[nodiscard]] std::vector<std::uint8_t> encode_glb(const GlbScene& scene);
-void write_glb(const std::filesystem::path& file, const GlbScene& scene);
+[[nodiscard]] std::vector<std::uint8_t> encode_glb(const GlbMesh& mesh);
+void write_glb(const std::filesystem::path& file, const GlbMesh& mesh);
 
 /// Triangulated mesh with one texture position per vertex: a vertex on a texture seam becomes several. Colours and
 /// attributes go along. `source_vertex` (if asked for) says which vertex of `mesh` each comes from, to carry

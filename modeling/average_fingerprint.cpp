@@ -1,5 +1,7 @@
 #include "modeling/average_fingerprint.h"
 
+#include <fmt/format.h>
+
 #include "base/content_hash.h"
 
 namespace mimik::modeling {

@@ -168,6 +168,12 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     geometry::LandmarkPairs pairs(neutral_marks, expressive_marks);
     for (const auto& merged : pairs.merged())
         model.left_out.push_back(fmt::format("{}: landmark {}", neutral.id.name(), merged));
+    for (const auto& name : pairs.only_in_from())
+        model.left_out.push_back(
+            fmt::format("{}: landmark '{}' is not on {}", neutral.id.name(), name, expressive.id.name()));
+    for (const auto& name : pairs.only_in_to())
+        model.left_out.push_back(
+            fmt::format("{}: landmark '{}' is not on {}", expressive.id.name(), name, neutral.id.name()));
     for (std::size_t k = 0; k < placed.anchors.size(); ++k)
         pairs.add(placed.anchors[k].name, anchors_on_source[k], anchors_on_source[k]);
     const auto expressive_from_neutral = pairs.fit(spline);

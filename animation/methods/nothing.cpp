@@ -24,7 +24,7 @@ public:
     [[nodiscard]] std::string name() const override { return "nothing"; }
     [[nodiscard]] std::string title() const override { return "doing nothing"; }
     [[nodiscard]] SourceKind needs() const override { return SourceKind::none; }
-    [[nodiscard]] std::unique_ptr<const Learner> learner(const Subject&) const override {
+    [[nodiscard]] std::unique_ptr<const Learner> learner(const LearningTask&) const override {
         return std::make_unique<NothingToLearn>();
     }
 };

@@ -64,7 +64,7 @@ public:
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] animation::SourceKind needs() const override { return animation::SourceKind::one_source; }
     [[nodiscard]] std::string lessons_key() const override { return "counted"; }
-    [[nodiscard]] std::unique_ptr<const animation::Learner> learner(const animation::Subject&) const override {
+    [[nodiscard]] std::unique_ptr<const animation::Learner> learner(const animation::LearningTask&) const override {
         return std::make_unique<CountingLearner>(studied_);
     }
 
@@ -80,10 +80,10 @@ TEST_F(CastTest, methods_that_take_the_same_lessons_share_them_and_what_is_not_h
                                                            std::make_shared<CountingMethod>("other", studied)};
     FailureList failures;
     const auto smile_expression = test::expression("12");
-    const animation::Subject subject{smile_expression, workspace_->average(), facs::builtin_catalogue()};
-    LessonBook roomy(reader, subject, methods, failures);
+    const animation::LearningTask task{smile_expression, workspace_->average(), facs::builtin_catalogue()};
+    LessonBook roomy(reader, task, methods, failures);
     const auto lesson_bytes = roomy.study(reader.read(smile(0))).front()->bytes();
-    LessonBook narrow(reader, subject, methods, failures, lesson_bytes);  // room for one
+    LessonBook narrow(reader, task, methods, failures, lesson_bytes);  // room for one
     studied = 0;
     for (auto* book : {&roomy, &narrow})
         for (int k = 0; k < 3; ++k) book->add(smile(k), book->study(reader.read(smile(k))));

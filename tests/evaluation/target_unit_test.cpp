@@ -71,7 +71,7 @@ public:
         : name_(std::move(name)), mm_(mm), needs_(needs) {}
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] animation::SourceKind needs() const override { return needs_; }
-    [[nodiscard]] std::unique_ptr<const animation::Learner> learner(const animation::Subject&) const override {
+    [[nodiscard]] std::unique_ptr<const animation::Learner> learner(const animation::LearningTask&) const override {
         return std::make_unique<PushLearner>(mm_);
     }
 
