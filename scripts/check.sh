@@ -9,6 +9,7 @@ steps=("$@")
 [ ${#steps[@]} -gt 0 ] || steps=(format layers rules sanitizers threads tidy fuzz)
 jobs=$(nproc)
 launcher=$(command -v ccache || true)
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1  # clones in other folders share the cache
 
 # The table of rooms; ${below[room]} is all that a room may use, its own name among them.
 rooms=()

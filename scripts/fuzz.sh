@@ -13,6 +13,7 @@ shift || true
 seed=${FUZZ_SEED:-1}
 [[ $seed =~ ^[1-9][0-9]*$ ]] || { echo "fuzz.sh: FUZZ_SEED is '$seed', not a whole number from 1 on" >&2; exit 2; }
 launcher=$(command -v ccache || true)
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1  # clones in other folders share the cache
 cmake --preset asan-ubsan ${launcher:+-DCMAKE_C_COMPILER_LAUNCHER="$launcher" -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"} >/dev/null
 cmake --build --preset asan-ubsan --target fuzzers
 mkdir -p build/fuzz/found build/fuzz/log

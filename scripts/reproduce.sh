@@ -29,6 +29,7 @@ fi
 
 scripts/setup.sh
 launcher=$(command -v ccache || true)
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1  # clones in other folders share the cache
 # The folder of scripts/test.sh: what the one has built the other need not.
 cmake --preset release ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"}
 cmake --build --preset release --target mimik mimik-figure
