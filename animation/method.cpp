@@ -5,7 +5,7 @@
 
 #include "base/errors.h"
 
-// animation/CMakeLists.txt lists the files of animation/methods/ in it: DECLARE(stem) and LIST(stem) for each.
+// Written by animation/CMakeLists.txt: a declaration for every file of animation/methods/, and methods::all().
 #include "animation/methods.inc"
 
 namespace mimik::animation {
@@ -20,6 +20,14 @@ std::unique_ptr<const Transfer> learn(const Method& method, const LearningTask& 
     std::vector<LessonPointer> lessons;
     for (const auto& performance : performances) lessons.push_back(learner->study(performance));
     return learner->learn(lessons);
+}
+
+geometry::Mesh animate_mesh(const geometry::Mesh& mesh, const geometry::Landmarks& landmarks,
+                            const preprocessing::AverageFace& average, const Transfer& transfer, double magnitude) {
+    const PreparedTarget target(geometry::face_surface(mesh, landmarks), average);
+    auto field = transfer.on(target);
+    for (auto& displacement : field.mm) displacement *= magnitude;
+    return geometry::moved(mesh, field);
 }
 
 std::vector<MethodPointer> known_methods() { return methods::all(); }

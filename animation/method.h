@@ -76,6 +76,13 @@ public:
 [[nodiscard]] std::unique_ptr<const Transfer> learn(const Method& method, const LearningTask& task,
                                                     std::span<const modeling::Performance> performances);
 
+/// Anybody's mesh, moved by what a method learned: its own vertices, faces, texture and attributes.
+/// @param landmarks  on the mesh, our names, in its frame: +x the subject's left, +y up, +z out of the face, mm.
+/// @throws as Transfer::on; InputError if the mesh has no face or a landmark is missing.
+[[nodiscard]] geometry::Mesh animate_mesh(const geometry::Mesh& mesh, const geometry::Landmarks& landmarks,
+                                          const preprocessing::AverageFace& average, const Transfer& transfer,
+                                          double magnitude = 1.0);
+
 using MethodPointer = std::shared_ptr<const Method>;
 
 /// The methods of animation/methods/, by name.

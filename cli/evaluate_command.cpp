@@ -80,7 +80,7 @@ int run(Arguments& arguments) {
 std::string method_names() {
     std::vector<std::string> names;
     for (const auto& method : animation::known_methods())
-        if (method->needs() != animation::SourceKind::none) names.push_back(method->name());
+        if (method->name() != evaluation::baseline_method) names.push_back(method->name());
     return fmt::format("{}", fmt::join(names, ", "));
 }
 

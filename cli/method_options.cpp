@@ -2,6 +2,11 @@
 
 #include <filesystem>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "animation/sparse_method.h"
+#include "base/errors.h"
 #include "cli/command.h"
 #include "modeling/average_fingerprint.h"
 
@@ -23,9 +28,33 @@ std::vector<facs::Expression> expressions_named(const facs::FacsCatalogue& catal
     return expressions;
 }
 
+namespace {
+
+/// The methods whose models are files of control points: those that 'model', 'animate' and 'panels' take.
+std::vector<std::string> sparse_method_names() {
+    std::vector<std::string> names;
+    for (const auto& method : animation::known_methods())
+        if (method->needs() == animation::SourceKind::one_source &&
+            dynamic_cast<const animation::SparseMethod*>(method.get()) != nullptr)
+            names.push_back(method->name());
+    return names;
+}
+
+const animation::SparseMethod& sparse_method(const std::string& name) {
+    static const auto methods = animation::known_methods();
+    for (const auto& method : methods)
+        if (const auto* sparse = dynamic_cast<const animation::SparseMethod*>(method.get());
+            sparse && sparse->name() == name)
+            return *sparse;
+    throw InputError(
+        fmt::format("method '{}' has no control points; there are: {}", name, fmt::join(sparse_method_names(), ", ")));
+}
+
+}  // namespace
+
 void MethodArguments::add_to(CLI::App& command) {
     command.add_option("--method", name, "thesis (as printed) or default (what measured best)")
-        ->check(CLI::IsMember({"thesis", "default"}))
+        ->check(CLI::IsMember(sparse_method_names()))
         ->capture_default_str();
     command.add_option("--catalogue", catalogue_file, "Another FACS catalogue (TOML) than the built-in one")
         ->check(CLI::ExistingFile);
@@ -56,13 +85,13 @@ void apply_switches(const MethodArguments& arguments, Options& options, double& 
 }  // namespace
 
 modeling::ModelOptions MethodArguments::model_options() const {
-    auto options = thesis() ? modeling::ModelOptions::thesis() : modeling::ModelOptions{};
+    auto options = sparse_method(name).model_options();
     apply_switches(*this, options, options.smoothing);
     return options;
 }
 
 animation::AnimationOptions MethodArguments::animation_options() const {
-    auto options = thesis() ? animation::AnimationOptions::thesis() : animation::AnimationOptions{};
+    auto options = sparse_method(name).animation_options();
     apply_switches(*this, options, options.landmark_smoothing);
     return options;
 }
@@ -78,8 +107,7 @@ modeling::ModelProvenance MethodArguments::provenance(const facs::FacsCatalogue&
 }
 
 std::string MethodArguments::variant_name() const {
-    const auto usual = thesis() ? modeling::ModelOptions::thesis() : modeling::ModelOptions{};
-    auto variant = name + modeling::variant_suffix(model_options(), usual);
+    auto variant = name + modeling::variant_suffix(model_options(), sparse_method(name).model_options());
     if (!catalogue_file.empty()) variant += "_catalogue-" + std::filesystem::path(catalogue_file).stem().string();
     return variant;
 }

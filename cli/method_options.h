@@ -29,7 +29,6 @@ struct MethodArguments {
     bool no_anchors = false;
 
     void add_to(CLI::App& command);
-    [[nodiscard]] bool thesis() const { return name == "thesis"; }
     [[nodiscard]] facs::FacsCatalogue catalogue() const;
     [[nodiscard]] modeling::ModelOptions model_options() const;
     [[nodiscard]] animation::AnimationOptions animation_options() const;

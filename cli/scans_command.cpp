@@ -188,7 +188,7 @@ void print_scans(const ScanDatabase& database, const std::vector<const ScanEntry
             facs.push_back(fmt::format("{}{}{}",
                                        score.side == facs::Side::left    ? "L"
                                        : score.side == facs::Side::right ? "R"
-                                                                   : "",
+                                                                         : "",
                                        score.action_unit, score.intensity ? std::string(1, score.intensity) : ""));
         const auto unit = entry.id.action_unit();
         rows.push_back({entry.id.name() + (database.hidden(entry.id.subject) ? " (hidden)" : ""),

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view unit_mark = "# unit ";
+constexpr std::size_t columns = 11;
 
 /// "# unit 12L bs003: 65 rows, 0123456789abcdef"
 std::string unit_line(const std::string& unit, std::size_t rows, const base::ContentHash& hash) {
@@ -65,7 +66,7 @@ CaseStore::~CaseStore() {
 }
 
 void CaseStore::append(const std::string& unit, std::span<const CaseRow> rows) {
-    if (!units_.insert(unit).second) throw InputError(fmt::format("unit '{}' is stored already", unit));
+    if (units_.contains(unit)) throw InputError(fmt::format("unit '{}' is stored already", unit));
     base::ContentHash hash;
     std::string text;
     for (const auto& row : rows) {
@@ -75,6 +76,7 @@ void CaseStore::append(const std::string& unit, std::span<const CaseRow> rows) {
     }
     out_ << text << unit_line(unit, rows.size(), hash) << '\n';
     if (!out_.flush()) throw InputError(fmt::format("{}: takes no more (disk full?)", written_.string()));
+    units_.insert(unit);
 }
 
 void CaseStore::read(const std::function<void(const CaseRow&)>& visit) const {
@@ -112,10 +114,14 @@ std::set<std::string> read_case_rows(const fs::path& file, const std::function<v
             continue;
         }
         hash.add(line + '\n');
-        base::LineReader one_line(line, file.string());
-        if (!one_line.next()) return units;
-        base::split_csv_line(one_line, fields);
-        if (fields.size() != 11) return units;
+        try {
+            base::LineReader one_line(line, file.string());
+            if (!one_line.next()) return units;
+            base::split_csv_line(one_line, fields);
+        } catch (const InputError&) {
+            return units;  // cut off within quotes
+        }
+        if (fields.size() != columns) return units;
         rows.push_back(decode_row(fields));
     }
     return units;  // rows without their unit's line were cut off

@@ -30,7 +30,8 @@ public:
     [[nodiscard]] bool has(const std::string& unit) const { return units_.contains(unit); }
     [[nodiscard]] std::size_t units() const { return units_.size(); }
 
-    /// All rows that were appended, in that order. @throws InputError naming file and line if they cannot be read back.
+    /// All rows that were appended, in that order. @throws InputError naming the file if they cannot be read back
+    /// whole.
     void read(const std::function<void(const CaseRow&)>& visit) const;
     /// The file takes its name.
     void finish();

@@ -39,7 +39,7 @@ public:
 /// "field": vertices without an answer.
 [[nodiscard]] const std::vector<std::unique_ptr<const Estimator>>& known_estimators();
 
-/// What "surface_distance" measures, for who wants the numbers alone.
+/// What "surface_distance" measures, as plain numbers.
 struct SurfaceDistances {
     double zone_mm = 0.0;
     std::optional<double> face_mm;  ///< if the target is scored as a whole

@@ -135,7 +135,7 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
     report.truth = reader.truth_origin();
     for (const auto& method : plan.methods) {
         auto scores = scores_of_method(*method, plan, table);
-        if (method->needs() == animation::SourceKind::none)
+        if (method->name() == baseline_method)
             report.nothing = std::move(scores);
         else
             report.rows.push_back(std::move(scores));

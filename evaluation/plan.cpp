@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "evaluation/score.h"
 
 namespace mimik::evaluation {
 
@@ -61,7 +62,7 @@ ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const 
     const auto add = [&](const animation::MethodPointer& method) {
         if (!has(method->name())) plan.methods.push_back(method);
     };
-    add(animation::method_by_name("nothing"));
+    add(animation::method_by_name(baseline_method));
     for (const auto& method : options.methods) {
         if (method->needs_truth() && !truth)
             throw InputError(fmt::format("method '{}' looks at the truth of a synthetic database, and {} has none",
@@ -93,9 +94,9 @@ ExperimentEstimate estimate(const ExperimentPlan& plan) {
         const auto sources = plan.sources(0, participants).size();
         std::size_t per_target = 0;
         for (const auto& method : plan.methods)
-            per_target += method->needs() == SourceKind::one_source       ? sources
-                          : method->needs() == SourceKind::all_but_target ? 1
-                                                                          : 0;
+            per_target += method->name() == baseline_method           ? 0
+                          : method->needs() == SourceKind::one_source ? sources
+                                                                      : 1;
         estimate.transfers += participants * per_target;
         estimate.core_seconds += static_cast<double>(participants) * subject_s;
     }

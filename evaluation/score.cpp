@@ -87,7 +87,7 @@ ScoreTable scores_of(const std::function<void(const std::function<void(const Cas
     bool any = false;
     const auto close_case = [&] {
         if (!any) return;
-        if (key.method == "nothing") nothing = numbers;
+        if (key.method == baseline_method) nothing = numbers;
         sums[key.method][key.expression].add(numbers, nothing);
     };
     read([&](const CaseRow& row) {

@@ -11,6 +11,9 @@
 
 namespace mimik::evaluation {
 
+/// What every other method has to beat, by its name.
+inline constexpr const char* baseline_method = "nothing";
+
 /// One method on one expression; what is not known is empty.
 struct Score {
     std::optional<double> explained;         ///< 1 - sum err(method) / sum err(doing nothing), active zone

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <map>
 #include <mutex>
 
 #include <fmt/format.h>
 
+#include "base/errors.h"
 #include "base/parallel.h"
 #include "evaluation/estimator.h"
+#include "evaluation/score.h"
 
 namespace mimik::evaluation {
 
@@ -64,7 +67,7 @@ private:
         const auto found = field_of(m, from, key);
         measure(key, found.field ? *found.field : still_, found.reason);
         // A crack is a fault of a method; a true field has none of its own.
-        if (!found.field || method.needs() == SourceKind::none || method.needs_truth()) return;
+        if (!found.field || method.name() == baseline_method || method.needs_truth()) return;
         const auto extent = geometry::field_extent(prepared_.surface(), found.field->mm);
         rows_.push_back({key, "field", "face", "largest_step", extent.largest_neighbour_step_mm, "mm", ""});
     }
@@ -80,14 +83,25 @@ private:
             std::vector<animation::LessonPointer> lessons;
             for (const auto s : from)
                 if (auto lesson = cast_.lessons.lesson(m, s)) lessons.push_back(std::move(lesson));
-            if (plan_.methods[m]->needs() == SourceKind::one_source && lessons.empty())
-                return {std::nullopt, "no model of this source"};  // reported when it was studied
-            return {cast_.lessons.learner(m).learn(lessons)->on(prepared_), ""};
+            if (!from.empty() && lessons.empty())
+                return {std::nullopt, "no model of its sources"};  // reported when they were studied
+            return {checked(cast_.lessons.learner(m).learn(lessons)->on(prepared_), key.method), ""};
         } catch (const std::exception& e) {
             failures_.add(
                 fmt::format("{}: {} -> {} by {}: {}", key.expression, key.source, key.target, key.method, e.what()));
             return {std::nullopt, e.what()};
         }
+    }
+
+    /// Of a method that somebody added: a field of another surface would be read beyond its end.
+    [[nodiscard]] DisplacementField checked(DisplacementField field, const std::string& method) const {
+        const auto vertices = prepared_.surface().size();
+        if (field.mm.size() != vertices || field.answered.size() != vertices)
+            throw InputError(
+                fmt::format("method '{}' gave {} displacements and {} answers for {} vertices; it has to give one "
+                            "of each per vertex",
+                            method, field.mm.size(), field.answered.size(), vertices));
+        return field;
     }
 
     void measure(const CaseKey& key, const DisplacementField& field, const std::string& no_answer) {
@@ -128,18 +142,27 @@ void in_order(std::size_t count, const std::function<std::vector<CaseRow>(std::s
     std::mutex mutex;
     std::map<std::size_t, std::vector<CaseRow>> waiting;
     std::size_t taken = 0;
-    base::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            // Whichever piece the scheduler begins, it does the first target that nobody has begun.
-            const std::size_t t = next.fetch_add(1);
-            auto rows = work(t);
+    std::exception_ptr fault;  // of the first take() that failed: after it nothing is taken
+    base::parallel_for_each(count, [&](std::size_t) {
+        // Whichever piece the scheduler begins, it does the first unit that nobody has begun.
+        const std::size_t t = next.fetch_add(1);
+        {
             const std::scoped_lock lock(mutex);
-            waiting.emplace(t, std::move(rows));
-            for (auto first = waiting.begin(); first != waiting.end() && first->first == taken;
-                 first = waiting.erase(first), ++taken)
-                take(first->first, first->second);
+            if (fault) return;
         }
+        auto rows = work(t);
+        const std::scoped_lock lock(mutex);
+        waiting.emplace(t, std::move(rows));
+        for (auto first = waiting.begin(); !fault && first != waiting.end() && first->first == taken;
+             first = waiting.erase(first), ++taken)
+            try {
+                take(first->first, first->second);
+            } catch (...) {
+                fault = std::current_exception();
+                return;
+            }
     });
+    if (fault) std::rethrow_exception(fault);
 }
 
 }  // namespace mimik::evaluation

@@ -443,8 +443,10 @@ std::optional<Expression> FacsCatalogue::find_expression(const std::string& text
 }
 
 std::vector<SidedUnit> FacsCatalogue::units(const Expression& expression) const {
+    // A word that was read without a catalogue has no units yet: of a scan's name, or of a model's file.
+    const auto known = expression.units().empty() ? this->expression(expression.code()) : expression;
     std::vector<SidedUnit> units;
-    for (const auto& part : expression.units()) {
+    for (const auto& part : known.units()) {
         const auto* unit = find(part.unit);
         if (!unit)
             throw InputError(

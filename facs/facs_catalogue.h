@@ -88,7 +88,7 @@ public:
     /// The same; empty if it is not in the catalogue.
     [[nodiscard]] std::optional<Expression> find_expression(const std::string& text) const;
     /// What the catalogue knows of an expression's units; of an emotion, of its prototype's.
-    /// @throws InputError naming a unit that is not in the catalogue.
+    /// @throws InputError for a word, or naming a unit, that is not in the catalogue.
     [[nodiscard]] std::vector<SidedUnit> units(const Expression& expression) const;
 
 private:

@@ -46,8 +46,7 @@ private:
     std::vector<std::string> names_, merged_, only_in_from_, only_in_to_;
 };
 
-/// The thin-plate spline through the landmarks that both faces have. For who wants to know which they have not:
-/// LandmarkPairs.
+/// The thin-plate spline through the landmarks that both faces have. LandmarkPairs says which they do not share.
 [[nodiscard]] ThinPlateSpline landmark_spline(const Landmarks& from, const Landmarks& to,
                                               const ThinPlateSplineOptions& options = {});
 

@@ -11,7 +11,8 @@ namespace mimik::geometry {
 [[nodiscard]] double upper_median(std::vector<double> values);
 
 /// The value below which the share `q` of the values lies, linear between the two next to it: 0 the smallest, 1 the
-/// largest (numpy's default, method 7 of Hyndman and Fan 1996). @throws InputError for no value, a NaN, or a share outside 0 to 1.
+/// largest (numpy's default, method 7 of Hyndman and Fan 1996). @throws InputError for no value, a NaN, or a share
+/// outside 0 to 1.
 [[nodiscard]] double quantile(std::vector<double> values, double q);
 
 }  // namespace mimik::geometry

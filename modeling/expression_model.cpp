@@ -266,6 +266,7 @@ std::string variant_suffix(const ModelOptions& options, const ModelOptions& usua
         if (is_switch)
             suffix += (value == "on" ? "_" : "_no-") + words;
         else
+            // "frame" is what model files have always called the normalisation.
             suffix += "_" + (name == "kernel" || name == "frame" ? value : words + "-" + value);
     }
     return suffix;

@@ -59,8 +59,7 @@ struct ModelOptions {
 };
 static_assert(base::lists_every_field<ModelOptions>());
 
-/// What makes a model another than `usual` would, every field of it: "_r2logr_no-anchors", for the names of its file
-/// and of its pictures.
+/// The fields in which a model's options differ from the usual ones, for names of files: "_r2logr_no-anchors".
 [[nodiscard]] std::string variant_suffix(const ModelOptions& options, const ModelOptions& usual);
 
 /// How a stored model came about.

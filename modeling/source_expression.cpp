@@ -38,10 +38,9 @@ ScanId source_scan(const Workspace& workspace, const std::string& subject, const
 void check_source(const Workspace& workspace, const ExpressionSource& source, const ModelOptions& options) {
     workspace.refuse_hidden(source.subject);
     if (source.subject != "mean" || options.place_on_average) return;
-    auto subjects = workspace.subjects();
+    auto subjects = workspace.shown_subjects();
     std::erase_if(subjects, [&](const std::string& subject) {
-        return workspace.hidden(subject) ||
-               std::find(source.excluded.begin(), source.excluded.end(), subject) != source.excluded.end();
+        return std::find(source.excluded.begin(), source.excluded.end(), subject) != source.excluded.end();
     });
     throw InputError(
         fmt::format("source 'mean': the thesis method has no mean (the thesis wished for it as future work; the "

@@ -28,8 +28,8 @@ struct WorkspaceList {
 ///   average/average_face.{ply,json}
 ///   faces/bs000/bs000_N_N_0.{ply,json}
 ///   unallowed_subjects.txt       the hidden subjects, so that a bare file of the workspace is refused too; if any
-/// Hidden is who was when the folder was made, and who stands now in a list of the workspace's or the database's
-/// (database::hidden_subjects_of), if that folder is still there.
+/// A subject is hidden if it was hidden when the workspace was made, or stands now in a list of the workspace's or the
+/// database's (database::hidden_subjects_of), if that folder is still there.
 class Workspace {
 public:
     /// @throws InputError if the folder is no finished workspace.

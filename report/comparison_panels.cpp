@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "animation/face_export.h"
+#include "animation/sparse_method.h"
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/file.h"
@@ -199,9 +200,9 @@ private:
 
 /// What makes another picture of the same people by the same method, each in a word: "_r2logr_no-anchors_left_bridged".
 std::string variant_suffix(const ComparisonRequest& request) {
-    const bool thesis = request.method_name == "thesis";
-    auto suffix =
-        modeling::variant_suffix(request.model, thesis ? modeling::ModelOptions::thesis() : modeling::ModelOptions{});
+    const auto method = animation::method_by_name(request.method_name);
+    const auto* sparse = dynamic_cast<const animation::SparseMethod*>(method.get());
+    auto suffix = modeling::variant_suffix(request.model, sparse ? sparse->model_options() : modeling::ModelOptions{});
     if (request.view != ComparisonRequest{}.view) suffix += "_" + request.view;
     if (request.bridged == geometry::BridgedVertices::keep) suffix += "_bridged";
     return suffix;

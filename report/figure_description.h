@@ -13,7 +13,7 @@ namespace mimik::report {
 
 /// A file of points and how its balls look.
 struct MarkerFile {
-    std::filesystem::path file{};  ///< any landmark file (geometry/landmark_io.h)
+    std::filesystem::path file{};  ///< any landmark file (io/landmark_io.h)
     std::string name{};            ///< for the legend
     figures::Colour colour = figures::landmark_colour;
     double radius_mm = figures::MarkerSet{}.radius_mm;

@@ -33,6 +33,13 @@ Pooled pooled(const evaluation::MethodScores& row) {
     return total;
 }
 
+/// "4.2 % of 1188"; empty without a case.
+std::string worse_text(const Pooled& total) {
+    if (total.cases == 0) return {};
+    return fmt::format("{:.1f} % of {}", 100.0 * static_cast<double>(total.worse) / static_cast<double>(total.cases),
+                       total.cases);
+}
+
 /// Whether every band that is known is met.
 bool fit_to_be_scored_on(const std::vector<evaluation::ReferenceBand>& bands) {
     return std::all_of(bands.begin(), bands.end(), [](const auto& band) { return band.inside(); });
@@ -69,12 +76,10 @@ std::string explained_table(const evaluation::ExperimentReport& report) {
         for (const auto& expression : report.expressions)
             text += fmt::format(" {} |", text_of(row.per_expression.at(expression.code()).explained, 2));
         const auto total = pooled(row);
-        text +=
-            fmt::format(" {} | {} | {} | {} | {:.1f} % of {} |\n",
-                        row.explained ? fmt::format("**{:.3f}**", *row.explained) : std::string(),
-                        text_of(row.explained_median, 3), text_of(row.share, 2), text_of(row.explained_whole, 2),
-                        total.cases ? 100.0 * static_cast<double>(total.worse) / static_cast<double>(total.cases) : 0.0,
-                        total.cases);
+        text += fmt::format(" {} | {} | {} | {} | {} |\n",
+                            row.explained ? fmt::format("**{:.3f}**", *row.explained) : std::string(),
+                            text_of(row.explained_median, 3), text_of(row.share, 2), text_of(row.explained_whole, 2),
+                            worse_text(total));
     }
     return text;
 }

@@ -26,7 +26,7 @@ struct PosedExpression {
     std::map<int, double> action_units;  ///< AU -> strength; what an expert would score
 };
 
-/// As database::parse_expression reads it, in any case: "12", "AU12_L", "LFAU_12L", "HAPPY", "E_ANGER".
+/// As facs::parse_expression reads it, in any case: "12", "AU12_L", "LFAU_12L", "HAPPY", "E_ANGER".
 /// @throws InputError listing the codes there are.
 [[nodiscard]] PosedExpression make_expression(std::string_view code);
 

@@ -14,6 +14,7 @@
 #include "tests/support/analytic_truth.h"
 #include "tests/support/analytic_workspace_files.h"
 #include "tests/support/expressions.h"
+#include "tests/support/thrown.h"
 
 namespace mimik::evaluation {
 namespace {
@@ -62,6 +63,22 @@ TEST(InOrder, begins_units_in_order_so_that_few_results_wait) {
     for (std::size_t t = 0; t < begun.size(); ++t) EXPECT_EQ(begun[t], t);
     EXPECT_EQ(most_waiting, 1U);  // the one that is being scored
     EXPECT_EQ(taken, 40U);
+}
+
+TEST(InOrder, hands_on_what_the_first_failed_take_said_and_takes_nothing_after_it) {
+    base::set_thread_count(2);
+    std::atomic<int> taken = 0;
+    EXPECT_EQ(test::message_of<InputError>([&] {
+                  in_order(
+                      40, [](std::size_t t) { return row_of(t); },
+                      [&](std::size_t t, const std::vector<CaseRow>&) {
+                          ++taken;
+                          if (t == 3) throw InputError("disk full");
+                      });
+              }),
+              "disk full");
+    base::set_thread_count(0);
+    EXPECT_EQ(taken, 4);
 }
 
 /// Moves every vertex by the same vector, learned from nobody.
@@ -185,6 +202,36 @@ TEST_F(ScoreTarget, a_case_whose_method_gives_no_answer_counts_as_doing_nothing_
     EXPECT_THAT(failures_.sorted(),
                 ElementsAre(HasSubstr("bs001 -> bs000 by lost"), HasSubstr("bs002 -> bs000 by lost"),
                             HasSubstr("mean -> bs000 by lost-mean")));
+}
+
+/// Answers for one vertex, whatever the face.
+class TooShort : public Push {
+public:
+    TooShort() : Push("too-short", geometry::Vector::Zero(), animation::SourceKind::none) {}
+    [[nodiscard]] std::unique_ptr<const animation::Learner> learner(const animation::LearningTask&) const override {
+        struct ShortTransfer : animation::Transfer {
+            [[nodiscard]] geometry::DisplacementField on(const animation::PreparedTarget&) const override {
+                return geometry::DisplacementField::still(1);
+            }
+        };
+        struct ShortLearner : animation::Learner {
+            [[nodiscard]] animation::LessonPointer study(const modeling::Performance&) const override {
+                return nullptr;
+            }
+            [[nodiscard]] std::unique_ptr<const animation::Transfer> learn(
+                std::span<const animation::LessonPointer>) const override {
+                return std::make_unique<ShortTransfer>();
+            }
+        };
+        return std::make_unique<ShortLearner>();
+    }
+};
+
+TEST_F(ScoreTarget, a_field_of_another_surface_is_refused_by_the_name_of_its_method) {
+    const auto planned = plan({std::make_shared<TooShort>()});
+    const auto gathered = cast(planned);
+    (void)score_target(*reader_, planned, gathered, 0, failures_);
+    EXPECT_THAT(failures_.sorted(), ElementsAre(HasSubstr("method 'too-short' gave 1 displacements and 1 answers")));
 }
 
 TEST_F(ScoreTarget, a_target_whose_zone_sees_nothing_has_no_row_and_is_listed) {

@@ -82,6 +82,13 @@ TEST(BuiltinCatalogue, resolves_the_six_emotions_to_their_units) {
     EXPECT_EQ(happy[1].unit->number, 12);
 }
 
+TEST(FacsCatalogue, knows_the_units_of_an_emotion_that_was_read_without_it_and_refuses_a_word_that_it_lacks) {
+    const auto happy = *parse_expression("HAPPY");
+    ASSERT_TRUE(happy.units().empty());
+    EXPECT_EQ(builtin_catalogue().units(happy).size(), 2U);
+    EXPECT_THROW((void)builtin_catalogue().units(*parse_expression("sneer")), InputError);
+}
+
 TEST(FacsCatalogue, splits_a_code_into_units_and_sides) {
     const auto units = units_of("A12LA15");
     ASSERT_EQ(units.size(), 2U);
