@@ -219,7 +219,7 @@ geometry::QuadGrid empty_grid(const Landmarks& consensus, const AverageFaceOptio
     geometry::QuadGrid grid;
     grid.rows = options.rows;
     grid.cols = options.cols;
-    const Point left = consensus.position_mm("eye_outer_left"), right = consensus.position_mm("eye_outer_right");
+    const Point &left = consensus.position_mm("eye_outer_left"), &right = consensus.position_mm("eye_outer_right");
     const double eyes_mm = geometry::outer_eye_distance_mm(consensus);
     const double x_max = options.half_width * eyes_mm;
     const double y_max = 0.5 * (left.y() + right.y()) + options.above_eyes * eyes_mm;
@@ -307,7 +307,7 @@ void put_nose_at_origin(AverageFace& average, const Landmarks& consensus) {
     auto& grid = average.grid;
     geometry::SurfacePoint nose;
     const geometry::SurfaceIndex surface(grid.vertices_mm, geometry::triangles(grid));
-    const Point tip = consensus.position_mm("nose_tip");
+    const Point& tip = consensus.position_mm("nose_tip");
     if (!surface.first_hit({tip.x(), tip.y(), in_front_mm}, -geometry::Vector::UnitZ(), nose)) return;
     const Transform shift(Eigen::Translation3d(-nose.position_mm));
     for (auto& p : grid.vertices_mm) p -= nose.position_mm;  // not shift * p: 0 * NaN would spread from z
