@@ -16,10 +16,8 @@
 #include "database/bosphorus_landmarks.h"
 #include "database/hidden_subjects.h"
 #include "facs/facs_catalogue.h"
-#include "geometry/surface_index.h"
 #include "io/image.h"
 #include "io/mesh_io.h"
-#include "preprocessing/neutral_alignment.h"
 #include "preprocessing/preprocess_run.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_database.h"
@@ -543,34 +541,6 @@ TEST_F(WorkspaceTest,
                 AllOf(HasSubstr("the scan lacks upper_lip_outer, lower_lip_outer of the average face"),
                       HasSubstr("the average face lacks scar of the scan")));
     EXPECT_THAT(preprocess().remarks, testing::IsEmpty());  // of the faces written, as all remarks are
-}
-
-TEST(AlignToNeutral, a_jaw_that_rests_elsewhere_turns_the_forehead_less_than_if_it_counted_in_full) {
-    // The whole face is said to hold still, but the jaw of the second scan is a little open: below y = -10 the skin
-    // goes back, 1 mm at the chin. Were all points alike, that would turn the head.
-    const test::AnalyticFace shape;
-    auto open = shape.scan(1.0);
-    for (auto& p : open.points_mm)
-        if (p.allFinite()) p.z() += 0.02 * std::min(0.0, p.y() + 10);
-    Face neutral, scan;
-    neutral.grid = grid_scan(shape.scan(1.0));
-    scan.grid = grid_scan(open);
-    neutral.landmarks = scan.landmarks = shape.landmarks();
-    const RigidAlignmentOptions all{.trim = 1.0};  // closed forms have no noise, so trimming would find the jaw
-    align_to_neutral(scan, neutral, geometry::VertexMask(neutral.grid.size(), 1), all);
-
-    std::vector<Point> everything;
-    for (std::size_t v = 0; v < neutral.grid.size(); ++v)
-        if (neutral.grid.measured(v)) everything.push_back(neutral.grid.vertices_mm[v]);
-    const geometry::SurfaceIndex surface(scan.grid.vertices_mm,
-                                         geometry::triangles(scan.grid, geometry::BridgedVertices::leave_out));
-    const auto plain = align_rigidly(everything, surface, geometry::Transform::Identity(), all);
-    const Point forehead = shape.point(0, 75);
-    const double error_mm = (scan.neutral_from_scan * forehead - forehead).norm();
-    const double plain_mm = (plain.target_from_source * forehead - forehead).norm();
-    EXPECT_GT(plain_mm, 0.1);  // else this test could not fail
-    // The jaw is far from the middle, so a fifth of its weight still has half its leverage; all alike would give 1.
-    EXPECT_LT(error_mm, 0.8 * plain_mm);
 }
 
 TEST_F(WorkspaceTest, one_and_two_threads_write_the_same_bytes) {
