@@ -196,7 +196,9 @@ std::optional<bool> lips_closed(const geometry::FaceSurface& neutral) {
     const auto* right = neutral.landmarks.find("mouth_corner_right");
     if (!upper || !lower || !left || !right) return std::nullopt;
     const auto [rows, cols] = *neutral.grid;
-    const auto vertex = [cols = cols](int row, int col) { return static_cast<std::size_t>(row * cols + col); };
+    const auto vertex = [cols = cols](int row, int col) {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);
+    };
     const double middle_x = (left->position_mm.x() + right->position_mm.x()) / 2;
     const double quarter_mm = std::abs(left->position_mm.x() - right->position_mm.x()) / 4;
     const auto [low, high] = std::minmax({upper->position_mm.y(), lower->position_mm.y()});
