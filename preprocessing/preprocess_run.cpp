@@ -79,10 +79,6 @@ std::string entry_stamp(const ScanEntry& entry) {
                        file_stamp(entry.texture_file), file_stamp(entry.landmarks2d_file));
 }
 
-bool inside(const fs::path& inner, const fs::path& outer) {
-    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
-
 /// Nothing can be done with a scan without landmarks, or with some on the other side: found out before it is gridded.
 database::LoadedScan load_marked(const ScanEntry& entry) {
     auto loaded = database::load(entry);
@@ -520,7 +516,7 @@ void check_workspace_place(const database::ScanDatabase& database, const fs::pat
     for (const auto& folder : folders) {
         const auto taken = place(folder);
         // A manifest's scans may lie elsewhere, in a folder that holds other things, too.
-        if (output != taken && !inside(output, home)) continue;
+        if (output != taken && !lies_in(output, home)) continue;
         throw InputError(
             fmt::format("{}: is part of the database {}, into which nothing is written; give another "
                         "folder for the workspace",

@@ -20,14 +20,6 @@ namespace mimik::preprocessing {
 using database::ScanId;
 namespace fs = std::filesystem;
 
-namespace {
-
-bool inside(const fs::path& inner, const fs::path& outer) {
-    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
-
-}  // namespace
-
 WorkspaceList decode_workspace(std::string_view text, const std::string& name) {
     return io::read_json_document(text, name, damaged_file_mend, [](const nlohmann::json& document) {
         WorkspaceList list;
@@ -101,7 +93,7 @@ Face Workspace::face(const ScanId& id) const {
     if (face.id != id) refuse(fmt::format("scan is {}", base::in_quotes(face.id.name())));
     // A workspace that came from elsewhere shall not reach other files.
     if (const auto& texture = face.texture_file;
-        !texture.empty() && !inside(texture.lexically_normal(), database_root()))
+        !texture.empty() && !lies_in(texture.lexically_normal(), database_root()))
         refuse(fmt::format("texture_file {} does not lie in the database {}", base::in_quotes(texture.string()),
                            database_root().string()));
     return face;

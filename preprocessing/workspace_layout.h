@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -20,5 +21,10 @@ namespace mimik::preprocessing {
 [[nodiscard]] inline std::filesystem::path sheets_folder(const std::filesystem::path& root) { return root / "sheets"; }
 /// A picture, the mark of what it was drawn from, and the folder of its parts while it is drawn.
 inline constexpr const char* sheet_suffixes[] = {".png", ".done", ".parts"};
+
+/// By the names as they are written: links and ".." are not followed.
+[[nodiscard]] inline bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
 
 }  // namespace mimik::preprocessing

@@ -84,6 +84,16 @@ void expect_same_attributes(const Mesh& read, const Mesh& written) {
 
 // ---- PLY
 
+void expect_corners_come_back(const Mesh& mesh, bool binary) {
+    const TemporaryFolder folder;
+    MeshWriteOptions options;
+    options.binary = binary;
+    write_mesh(folder / "mesh.ply", mesh, options);
+    const auto read = read_mesh(folder / "mesh.ply");
+    expect_same_surface(read, mesh);
+    EXPECT_EQ(corner_positions(read), corner_positions(mesh));
+}
+
 class PlyRoundTrip : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Encodings, PlyRoundTrip, testing::Bool(),
                          [](const auto& test) { return std::string(test.param ? "binary" : "ascii"); });
@@ -108,19 +118,12 @@ TEST_P(PlyRoundTrip, every_double_colour_attribute_and_texture_position_comes_ba
 }
 
 TEST_P(PlyRoundTrip, texture_positions_per_corner_come_back) {
-    const TemporaryFolder folder;
     auto mesh = odd_mesh();
     add_corner_texture(mesh);
-    MeshWriteOptions options;
-    options.binary = GetParam();
-    write_mesh(folder / "mesh.ply", mesh, options);
-    const auto read = read_mesh(folder / "mesh.ply");
-    expect_same_surface(read, mesh);
-    EXPECT_EQ(corner_positions(read), corner_positions(mesh));
+    expect_corners_come_back(mesh, GetParam());
 }
 
 TEST_P(PlyRoundTrip, a_polygon_too_large_for_a_byte_count_comes_back) {
-    const TemporaryFolder folder;
     Mesh mesh;
     std::vector<std::uint32_t> ring;
     for (std::uint32_t i = 0; i < 300; ++i) {
@@ -129,12 +132,7 @@ TEST_P(PlyRoundTrip, a_polygon_too_large_for_a_byte_count_comes_back) {
     }
     mesh.faces.add(ring);
     add_corner_texture(mesh);
-    MeshWriteOptions options;
-    options.binary = GetParam();
-    write_mesh(folder / "mesh.ply", mesh, options);
-    const auto read = read_mesh(folder / "mesh.ply");
-    expect_same_surface(read, mesh);
-    EXPECT_EQ(corner_positions(read), corner_positions(mesh));
+    expect_corners_come_back(mesh, GetParam());
 }
 
 TEST(Ply, rows_without_a_property_are_refused_before_anything_is_allocated) {
