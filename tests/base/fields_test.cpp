@@ -49,9 +49,14 @@ struct Forgetful {
         visit("listed", self.listed);
     }
 };
-static_assert(lists_every_field<Inner>() && lists_every_field<Outer>());
+static_assert(lists_every_field<Inner>());
 static_assert(!lists_every_field<Forgetful>());
 static_assert(lists_every_field<Forgetful>(1));  // left out on purpose
+
+TEST(Fields, one_that_is_left_out_is_found) {
+    EXPECT_TRUE(lists_every_field<Outer>());  // clang 14 has no strings in constant expressions
+    EXPECT_FALSE(lists_every_field<Forgetful>());
+}
 
 TEST(Fields, their_text_has_every_value_as_people_read_it) {
     EXPECT_EQ(field_text(Outer{}),
