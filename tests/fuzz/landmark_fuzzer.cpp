@@ -5,6 +5,7 @@ namespace mimik::fuzzing {
 namespace {
 
 using namespace geometry;
+using namespace io;
 
 constexpr auto format = LandmarkFormat::MIMIK_FUZZED;
 

@@ -13,6 +13,7 @@ namespace mimik::fuzzing {
 namespace {
 
 using namespace geometry;
+using namespace io;
 
 constexpr auto format = MeshFormat::MIMIK_FUZZED;
 

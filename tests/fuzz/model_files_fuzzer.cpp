@@ -47,7 +47,7 @@ void fuzz_one(std::span<const std::uint8_t> bytes) {
 
 std::vector<std::string> seeds() {
     modeling::ExpressionModel model;
-    model.expression = "AU12_L";
+    model.expression = facs::parse_expression("AU12_L").value();
     model.sources = {"bs000_N_N_0", "bs000_LFAU_12L_0"};
     model.landmarks = geometry::Landmarks({{"nose_tip", {0, 0.25, 0}, "Nose tip"}, {"chin", {0, -60, -20}, ""}});
     model.mouth_width_mm = 50;
@@ -55,7 +55,7 @@ std::vector<std::string> seeds() {
                     {"anchor 1", facs::ControlKind::anchor, {50, 40, -40}, {0, 0, 0}, 0}};
     model.left_out = {"point 'x' is off the face"};
     auto affine = model;
-    affine.frame = modeling::Normalisation::affine;
+    affine.normalisation = modeling::Normalisation::affine;
     affine.points.pop_back();
     return {modeling::encode_expression_model(model), modeling::encode_expression_model(affine),
             "rrow,col,region\n0,0,nose\n0,1,nose\n3,4,cheek_left\n", "rregion,col,row\r\n\"my \"\"a\"\", b\",4,1e0\r\n",
