@@ -1,5 +1,7 @@
 #include "animation/method.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -22,10 +24,29 @@ std::unique_ptr<const Transfer> learn(const Method& method, const LearningTask& 
     return learner->learn(lessons);
 }
 
+geometry::DisplacementField field_on(const Transfer& transfer, const PreparedTarget& target) {
+    auto field = transfer.on(target);
+    const auto vertices = target.surface().size();
+    if (field.mm.size() != vertices || field.answered.size() != vertices)
+        throw InputError(
+            fmt::format("the method gave {} displacements and {} answers for {} vertices; it has to give one of each "
+                        "per vertex",
+                        field.mm.size(), field.answered.size(), vertices));
+    for (std::size_t v = 0; v < vertices; ++v) {
+        if (!field.answered[v])
+            field.mm[v].setZero();
+        else if (!field.mm[v].allFinite())
+            throw NumericalError(fmt::format("the displacement of vertex {} is no finite number", v));
+    }
+    return field;
+}
+
 geometry::Mesh animate_mesh(const geometry::Mesh& mesh, const geometry::Landmarks& landmarks,
                             const preprocessing::AverageFace& average, const Transfer& transfer, double magnitude) {
+    if (!std::isfinite(magnitude) || magnitude < 0)
+        throw InputError(fmt::format("magnitude is {}; give 0 (neutral) or more", magnitude));
     const PreparedTarget target(geometry::face_surface(mesh, landmarks), average);
-    auto field = transfer.on(target);
+    auto field = field_on(transfer, target);
     for (auto& displacement : field.mm) displacement *= magnitude;
     return geometry::moved(mesh, field);
 }

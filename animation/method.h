@@ -66,7 +66,8 @@ public:
     [[nodiscard]] virtual SourceKind needs() const = 0;
     /// Whether it looks at the truth of a synthetic database: a bound for the others, no method for real scans.
     [[nodiscard]] virtual bool needs_truth() const { return false; }
-    /// Methods with equal keys take the same lessons, which are then studied once for all of them.
+    /// Methods with equal keys take the same lessons, which are then studied once for all of them, by the learner of
+    /// one; each makes its own transfer of them.
     [[nodiscard]] virtual std::string lessons_key() const { return name(); }
     /// @throws InputError if the expression cannot be learned at all.
     [[nodiscard]] virtual std::unique_ptr<const Learner> learner(const LearningTask& task) const = 0;
@@ -76,9 +77,15 @@ public:
 [[nodiscard]] std::unique_ptr<const Transfer> learn(const Method& method, const LearningTask& task,
                                                     std::span<const modeling::Performance> performances);
 
+/// What a transfer says of a face, made safe for everything behind it: a vertex without an answer stays where it is.
+/// @throws as Transfer::on; InputError if there are not as many displacements and answers as vertices; NumericalError
+/// if an answer is not finite.
+[[nodiscard]] geometry::DisplacementField field_on(const Transfer& transfer, const PreparedTarget& target);
+
 /// Anybody's mesh, moved by what a method learned: its own vertices, faces, texture and attributes.
 /// @param landmarks  on the mesh, our names, in its frame: +x the subject's left, +y up, +z out of the face, mm.
-/// @throws as Transfer::on; InputError if the mesh has no face or a landmark is missing.
+/// @param magnitude  0 (neutral) or more, as for models
+/// @throws as field_on; InputError if the mesh has no face, a landmark is missing or the magnitude is below 0.
 [[nodiscard]] geometry::Mesh animate_mesh(const geometry::Mesh& mesh, const geometry::Landmarks& landmarks,
                                           const preprocessing::AverageFace& average, const Transfer& transfer,
                                           double magnitude = 1.0);

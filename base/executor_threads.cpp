@@ -40,6 +40,7 @@ void run(std::size_t pieces, const std::function<void(std::size_t)>& piece) {
         for (std::size_t mine = next++; mine < pieces; mine = next++) piece(mine);
     };
     std::vector<std::thread> helpers;
+    helpers.reserve(std::min(pieces, static_cast<std::size_t>(thread_count())));  // nothing but a thread can fail below
     while (helpers.size() + 1 < pieces && take_helper()) {
         try {
             helpers.emplace_back([&work] {

@@ -35,5 +35,7 @@ struct CaseRow {
 [[nodiscard]] std::string_view case_row_header();
 /// One line of CSV without its end; numbers with all their digits.
 [[nodiscard]] std::string encode_case_row(const CaseRow& row);
+/// Empty where the line is none: other columns, quotes that do not close, a magnitude that is no number.
+[[nodiscard]] std::optional<CaseRow> decode_case_row(const std::string& line);
 
 }  // namespace mimik::evaluation

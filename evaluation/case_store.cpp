@@ -18,23 +18,24 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view unit_mark = "# unit ";
-constexpr std::size_t columns = 11;
 
 /// "# unit 12L bs003: 65 rows, 0123456789abcdef"
 std::string unit_line(const std::string& unit, std::size_t rows, const base::ContentHash& hash) {
     return fmt::format("{}{}: {} rows, {}", unit_mark, unit, rows, hash.text());
 }
 
-std::optional<double> number(std::string_view text) { return text.empty() ? std::nullopt : base::parse_double(text); }
-
-CaseRow decode_row(const std::vector<std::string>& fields) {
-    return {{fields[0], fields[1], fields[2], fields[3], number(fields[4]).value_or(1.0)},
-            fields[5],
-            fields[6],
-            fields[7],
-            number(fields[8]),
-            fields[9],
-            fields[10]};
+/// @throws InputError if it is longer than any that a store writes.
+bool next_line(std::istream& in, std::string& line, const std::string& file) {
+    constexpr std::size_t longest = 64 * 1024;
+    line.resize(longest);
+    in.getline(line.data(), static_cast<std::streamsize>(longest));
+    const auto read = static_cast<std::size_t>(in.gcount());
+    if (in.fail() && read + 1 >= longest)
+        throw InputError(
+            fmt::format("{}: a line of more than {} bytes; it is no table of cases as mimik writes it", file, longest));
+    if (in.fail()) return false;
+    line.resize(in.eof() ? read : read - 1);  // without the end of the line
+    return true;
 }
 
 fs::path temporary_file() {
@@ -95,15 +96,20 @@ void CaseStore::finish() {
 
 std::set<std::string> read_case_rows(const fs::path& file, const std::function<void(const CaseRow&)>& visit) {
     std::ifstream in(file, std::ios::binary);
+    return read_case_rows(in, file.string(), visit);
+}
+
+std::set<std::string> read_case_rows(std::istream& in, const std::string& name_of_file,
+                                     const std::function<void(const CaseRow&)>& visit) {
+    constexpr std::size_t most_rows = 2'000'000;  // of a unit: 1000 sources by 50 methods leave 800,000
     std::string line;
-    if (!std::getline(in, line) || line != case_row_header())
+    if (!next_line(in, line, name_of_file) || line != case_row_header())
         throw InputError(
-            fmt::format("{}: is no table of cases; its first line has to be '{}'", file.string(), case_row_header()));
+            fmt::format("{}: is no table of cases; its first line has to be '{}'", name_of_file, case_row_header()));
     std::set<std::string> units;
     std::vector<CaseRow> rows;
     base::ContentHash hash;
-    std::vector<std::string> fields;
-    while (std::getline(in, line)) {
+    while (next_line(in, line, name_of_file)) {
         if (line.starts_with(unit_mark)) {
             const auto name = line.substr(unit_mark.size(), line.rfind(": ") - unit_mark.size());
             if (line != unit_line(name, rows.size(), hash)) return units;
@@ -114,15 +120,14 @@ std::set<std::string> read_case_rows(const fs::path& file, const std::function<v
             continue;
         }
         hash.add(line + '\n');
-        try {
-            base::LineReader one_line(line, file.string());
-            if (!one_line.next()) return units;
-            base::split_csv_line(one_line, fields);
-        } catch (const InputError&) {
-            return units;  // cut off within quotes
-        }
-        if (fields.size() != columns) return units;
-        rows.push_back(decode_row(fields));
+        auto row = decode_case_row(line);
+        if (!row) return units;  // cut off
+        if (rows.size() == most_rows)
+            throw InputError(
+                fmt::format("{}: more than {} rows without the line that ends their unit; it is no table "
+                            "of cases as mimik writes it",
+                            name_of_file, most_rows));
+        rows.push_back(std::move(*row));
     }
     return units;  // rows without their unit's line were cut off
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <istream>
 #include <set>
 #include <span>
 #include <string>
@@ -43,9 +44,14 @@ private:
     std::set<std::string> units_;
 };
 
-/// The whole units of a store's file, row by row: up to the first line that does not fit its checksum.
-/// @return the names of the units. @throws InputError if it is no such file.
+/// The whole units of a store's file, row by row: up to the first line that does not fit its checksum. One unit is in
+/// memory at a time.
+/// @return the names of the units. @throws InputError if it is no such file, a line has more than 64 kB or a unit more
+/// than two million rows.
 std::set<std::string> read_case_rows(const std::filesystem::path& file,
+                                     const std::function<void(const CaseRow&)>& visit);
+/// The same from a stream. @param name  of the file, for messages
+std::set<std::string> read_case_rows(std::istream& in, const std::string& name,
                                      const std::function<void(const CaseRow&)>& visit);
 
 }  // namespace mimik::evaluation

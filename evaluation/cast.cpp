@@ -16,31 +16,30 @@ using geometry::Vector;
 LessonBook::LessonBook(const PerformanceReader& reader, const animation::LearningTask& task,
                        std::span<const animation::MethodPointer> methods, FailureList& failures, std::size_t bytes)
     : reader_(reader), expression_(task.expression.code()), failures_(failures), room_(bytes) {
-    std::vector<std::string> keys;
     for (const auto& method : methods) {
         const auto key = method->lessons_key();
-        const auto known = std::find(keys.begin(), keys.end(), key);
-        learner_of_.push_back(static_cast<std::size_t>(known - keys.begin()));
-        if (known != keys.end()) continue;
-        keys.push_back(key);
-        learner_names_.push_back(method->name());
-        takes_lessons_.push_back(method->needs() != animation::SourceKind::none ? 1 : 0);
+        auto kind = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& known) { return known.key == key; });
+        if (kind == kinds_.end()) kind = kinds_.insert(kinds_.end(), {key, method->name(), nullptr, false});
+        kind_of_.push_back(static_cast<std::size_t>(kind - kinds_.begin()));
         try {
             learners_.push_back(method->learner(task));
         } catch (const std::exception& e) {
             learners_.push_back(nullptr);
             failures_.add(fmt::format("{} by {}: no model of any source: {}", expression_, method->name(), e.what()));
+            continue;
         }
+        if (!kind->student) kind->student = learners_.back().get();
+        kind->taken = kind->taken || method->needs() != animation::SourceKind::none;
     }
 }
 
 std::vector<animation::LessonPointer> LessonBook::study(const modeling::Performance& performance) const {
-    std::vector<animation::LessonPointer> lessons(learners_.size());
-    for (std::size_t l = 0; l < learners_.size(); ++l) try {
-            if (learners_[l] && takes_lessons_[l]) lessons[l] = learners_[l]->study(performance);
+    std::vector<animation::LessonPointer> lessons(kinds_.size());
+    for (std::size_t k = 0; k < kinds_.size(); ++k) try {
+            if (kinds_[k].student && kinds_[k].taken) lessons[k] = kinds_[k].student->study(performance);
         } catch (const std::exception& e) {
             failures_.add(fmt::format("{} of {} by {}: no model: {}", expression_, performance.neutral.id.subject,
-                                      learner_names_[l], e.what()));
+                                      kinds_[k].first_name, e.what()));
         }
     return lessons;
 }
@@ -60,9 +59,9 @@ void LessonBook::add(const ScanId& expressive, std::vector<animation::LessonPoin
 }
 
 animation::LessonPointer LessonBook::lesson(std::size_t method, std::size_t k) const {
-    const auto l = learner_of_[method];
-    if (!there_[k][l]) return nullptr;
-    return k < held_.size() ? held_[k][l] : learners_[l]->study(reader_.read(ids_[k]));
+    const auto kind = kind_of_[method];
+    if (!there_[k][kind]) return nullptr;
+    return k < held_.size() ? held_[k][kind] : kinds_[kind].student->study(reader_.read(ids_[k]));
 }
 
 namespace {

@@ -14,8 +14,9 @@
 
 namespace mimik::evaluation {
 
-/// What the methods have learned from every participant. Methods that take the same lessons share them. The first ones
-/// are held, up to `bytes`; the rest is studied again whenever it is asked for.
+/// What the methods have learned from every participant. Methods that take the same lessons share them; what a method
+/// makes of its lessons is its own. The first ones are held, up to `bytes`; the rest is studied again whenever it is
+/// asked for, and then a mean has the lessons of all its sources in memory at once.
 class LessonBook {
 public:
     /// References are kept, also to what `task` refers to.
@@ -23,16 +24,15 @@ public:
                std::span<const animation::MethodPointer> methods, FailureList& failures,
                std::size_t bytes = std::size_t{256} << 20);
 
-    /// What is learned from one performance, by every learner; from any thread. What fails is reported and stays empty.
+    /// What is learned from one performance, of every kind of lesson; from any thread. What fails is reported and stays
+    /// empty.
     [[nodiscard]] std::vector<animation::LessonPointer> study(const modeling::Performance& performance) const;
     /// The lessons of the next participant, in the order of the participants.
     void add(const database::ScanId& expressive, std::vector<animation::LessonPointer> lessons);
 
     /// Whether this method can be learned at all; if not, that was reported.
-    [[nodiscard]] bool can_learn(std::size_t method) const { return learners_[learner_of_[method]] != nullptr; }
-    [[nodiscard]] const animation::Learner& learner(std::size_t method) const {
-        return *learners_[learner_of_[method]];
-    }
+    [[nodiscard]] bool can_learn(std::size_t method) const { return learners_[method] != nullptr; }
+    [[nodiscard]] const animation::Learner& learner(std::size_t method) const { return *learners_[method]; }
     /// Of participant k for a method; empty if there is none. From any thread, after the last add().
     [[nodiscard]] animation::LessonPointer lesson(std::size_t method, std::size_t k) const;
     [[nodiscard]] std::size_t held() const { return held_.size(); }  ///< participants
@@ -42,12 +42,17 @@ private:
     std::string expression_;
     FailureList& failures_;
     std::size_t room_;
-    std::vector<std::size_t> learner_of_;                              // per method
-    std::vector<std::unique_ptr<const animation::Learner>> learners_;  // null: it cannot be learned
-    std::vector<std::string> learner_names_;                           // of the first method that takes its lessons
-    std::vector<char> takes_lessons_;                                  // per learner
-    std::vector<std::vector<animation::LessonPointer>> held_;          // per participant, per learner
-    std::vector<std::vector<char>> there_;                             // likewise, also of those that are not held
+    // One kind of lesson, and the first method that takes it.
+    struct Kind {
+        std::string key, first_name;
+        const animation::Learner* student = nullptr;  // null: no method that takes it can be learned
+        bool taken = false;                           // some method needs a source
+    };
+    std::vector<std::unique_ptr<const animation::Learner>> learners_;  // per method; null: it cannot be learned
+    std::vector<Kind> kinds_;
+    std::vector<std::size_t> kind_of_;                         // per method
+    std::vector<std::vector<animation::LessonPointer>> held_;  // per participant, per kind
+    std::vector<std::vector<char>> there_;                     // likewise, also of those that are not held
     std::vector<database::ScanId> ids_;
 };
 

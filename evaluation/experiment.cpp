@@ -92,7 +92,15 @@ std::optional<double> mean_of(const std::map<std::string, Score>& scores, std::o
 }
 
 MethodScores scores_of_method(const animation::Method& method, const ExperimentPlan& plan, const ScoreTable& table) {
-    MethodScores scores{method.title(), method.needs(), method.needs_truth(), {}, {}, {}, {}, {}};
+    MethodScores scores{.method = method.title(),
+                        .kind = method.needs(),
+                        .reference = method.needs_truth(),
+                        .bound = method.name() == bound_of(method.needs()),
+                        .per_expression = {},
+                        .explained = {},
+                        .explained_median = {},
+                        .explained_whole = {},
+                        .share = {}};
     const auto found = table.find(method.name());
     for (const auto& planned : plan.expressions) {
         auto& score = scores.per_expression[planned.expression.code()];
@@ -109,7 +117,7 @@ MethodScores scores_of_method(const animation::Method& method, const ExperimentP
 void add_shares(std::vector<MethodScores>& rows) {
     for (auto& row : rows)
         for (const auto& other : rows)
-            if (other.reference && other.kind == row.kind && !row.reference && row.explained &&
+            if (other.bound && other.kind == row.kind && !row.reference && row.explained &&
                 other.explained.value_or(0) > 0)
                 row.share = *row.explained / *other.explained;
 }

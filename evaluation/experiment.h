@@ -16,12 +16,13 @@ namespace mimik::evaluation {
 struct MethodScores {
     std::string method;  ///< as tables print it
     animation::SourceKind kind = animation::SourceKind::one_source;
-    bool reference = false;                       ///< a true field
+    bool reference = false;                       ///< it looks at the truth
+    bool bound = false;                           ///< the reference that shares of its kind are taken of
     std::map<std::string, Score> per_expression;  ///< by code; an expression without a case has an empty score
     std::optional<double> explained;              ///< mean over the expressions that have a case
     std::optional<double> explained_median;
     std::optional<double> explained_whole;
-    std::optional<double> share;  ///< explained / explained by the true field of the same kind
+    std::optional<double> share;  ///< explained / explained by the bound of the same kind
 };
 
 struct ExperimentReport {
@@ -43,7 +44,9 @@ struct ExperimentReport {
 /// any row; all are listed.
 ///
 /// Memory: faces are read when they are needed, one subject's at a time per thread (about 30 MB), beside 256 MB of
-/// lessons at most, whatever the number of subjects and expressions. Rows go to the disk as they come.
+/// lessons, whatever the number of expressions. Where the lessons of all subjects take more (true fields of 500
+/// subjects do), the rest is studied again, and a mean holds those of its sources once per thread. Rows go to the disk
+/// as they come.
 /// @param plan   of plan_experiment() for this workspace
 /// @param cases  where the rows are kept, one line per number; empty: nowhere that outlives the run
 /// @throws InputError if fewer than 3 subjects of an expression are left.

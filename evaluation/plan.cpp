@@ -11,6 +11,10 @@ namespace mimik::evaluation {
 
 using animation::SourceKind;
 
+std::string_view bound_of(SourceKind kind) {
+    return kind == SourceKind::one_source ? "true-field" : kind == SourceKind::all_but_target ? "true-field-mean" : "";
+}
+
 std::vector<facs::Expression> ExperimentOptions::thesis_expressions() {
     std::vector<facs::Expression> expressions;
     for (const int unit : {1, 2, 4, 12, 14, 15, 17, 20})
@@ -70,7 +74,8 @@ ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const 
         add(method);
     }
     if (options.reference && truth)
-        for (const auto* name : {"true-field", "true-field-mean"}) add(animation::method_by_name(name));
+        for (const auto kind : {SourceKind::one_source, SourceKind::all_but_target})
+            add(animation::method_by_name(std::string(bound_of(kind))));
     for (const auto& expression : options.expressions) {
         (void)catalogue.units(expression);
         PlannedExpression planned{expression, {}};

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "animation/method.h"
@@ -9,6 +10,10 @@
 #include "preprocessing/workspace.h"
 
 namespace mimik::evaluation {
+
+/// The method that looks at the truth and says what a method of this kind could do at best; shares refer to it. Empty
+/// where there is none.
+[[nodiscard]] std::string_view bound_of(animation::SourceKind kind);
 
 struct ExperimentOptions {
     std::vector<facs::Expression> expressions = thesis_expressions();

@@ -11,7 +11,7 @@ constexpr std::size_t fewest_of_a_mean = 11;
 
 const MethodScores* true_field(const ExperimentReport& report, animation::SourceKind kind) {
     const auto row = std::find_if(report.rows.begin(), report.rows.end(), [&](const MethodScores& candidate) {
-        return candidate.reference && candidate.kind == kind;
+        return candidate.bound && candidate.kind == kind;
     });
     return row == report.rows.end() ? nullptr : &*row;
 }

@@ -84,11 +84,17 @@ ScoreTable scores_of(const std::function<void(const std::function<void(const Cas
     std::map<std::string, std::map<std::string, Sums>> sums;
     CaseKey key;
     CaseNumbers numbers, nothing;
+    std::pair<std::string, std::string> nothing_of;  // target and expression
     bool any = false;
     const auto close_case = [&] {
         if (!any) return;
-        if (key.method == baseline_method) nothing = numbers;
-        sums[key.method][key.expression].add(numbers, nothing);
+        if (key.method == baseline_method) {
+            nothing = numbers;
+            nothing_of = {key.target, key.expression};
+        }
+        // Rows that somebody sorted or filtered: another face's baseline is none.
+        const bool own = nothing_of == std::pair(key.target, key.expression);
+        sums[key.method][key.expression].add(numbers, own ? nothing : CaseNumbers());
     };
     read([&](const CaseRow& row) {
         if (any && row.key == key) return numbers.take(row);

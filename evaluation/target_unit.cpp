@@ -85,23 +85,12 @@ private:
                 if (auto lesson = cast_.lessons.lesson(m, s)) lessons.push_back(std::move(lesson));
             if (!from.empty() && lessons.empty())
                 return {std::nullopt, "no model of its sources"};  // reported when they were studied
-            return {checked(cast_.lessons.learner(m).learn(lessons)->on(prepared_), key.method), ""};
+            return {animation::field_on(*cast_.lessons.learner(m).learn(lessons), prepared_), ""};
         } catch (const std::exception& e) {
             failures_.add(
                 fmt::format("{}: {} -> {} by {}: {}", key.expression, key.source, key.target, key.method, e.what()));
             return {std::nullopt, e.what()};
         }
-    }
-
-    /// Of a method that somebody added: a field of another surface would be read beyond its end.
-    [[nodiscard]] DisplacementField checked(DisplacementField field, const std::string& method) const {
-        const auto vertices = prepared_.surface().size();
-        if (field.mm.size() != vertices || field.answered.size() != vertices)
-            throw InputError(
-                fmt::format("method '{}' gave {} displacements and {} answers for {} vertices; it has to give one "
-                            "of each per vertex",
-                            method, field.mm.size(), field.answered.size(), vertices));
-        return field;
     }
 
     void measure(const CaseKey& key, const DisplacementField& field, const std::string& no_answer) {
@@ -142,27 +131,35 @@ void in_order(std::size_t count, const std::function<std::vector<CaseRow>(std::s
     std::mutex mutex;
     std::map<std::size_t, std::vector<CaseRow>> waiting;
     std::size_t taken = 0;
-    std::exception_ptr fault;  // of the first take() that failed: after it nothing is taken
+    std::map<std::size_t, std::exception_ptr> faults;  // by unit
     base::parallel_for_each(count, [&](std::size_t) {
         // Whichever piece the scheduler begins, it does the first unit that nobody has begun.
         const std::size_t t = next.fetch_add(1);
         {
             const std::scoped_lock lock(mutex);
-            if (fault) return;
+            if (!faults.empty() && faults.begin()->first < t) return;
         }
-        auto rows = work(t);
+        std::vector<CaseRow> rows;
+        std::exception_ptr fault;
+        try {
+            rows = work(t);
+        } catch (...) {
+            fault = std::current_exception();
+        }
         const std::scoped_lock lock(mutex);
-        waiting.emplace(t, std::move(rows));
-        for (auto first = waiting.begin(); !fault && first != waiting.end() && first->first == taken;
+        if (fault)
+            faults.emplace(t, fault);
+        else
+            waiting.emplace(t, std::move(rows));
+        for (auto first = waiting.begin(); first != waiting.end() && first->first == taken;
              first = waiting.erase(first), ++taken)
             try {
-                take(first->first, first->second);
+                if (faults.empty() || first->first < faults.begin()->first) take(first->first, first->second);
             } catch (...) {
-                fault = std::current_exception();
-                return;
+                faults.emplace(first->first, std::current_exception());
             }
     });
-    if (fault) std::rethrow_exception(fault);
+    if (!faults.empty()) std::rethrow_exception(faults.begin()->second);
 }
 
 }  // namespace mimik::evaluation

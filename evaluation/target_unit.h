@@ -18,7 +18,8 @@ namespace mimik::evaluation {
                                                 const Cast& cast, std::size_t t, FailureList& failures);
 
 /// Calls work(t) for t = 0 ... count - 1, in parallel and begun in that order, and take(t, its rows) in exactly that
-/// order, one at a time. What waits for an earlier one is at most what the other threads have finished meanwhile.
+/// order, one at a time. What waits for an earlier one is what the other threads have finished meanwhile. After work or
+/// take of a unit has thrown, no later unit is taken, and the exception of the first such unit is thrown.
 void in_order(std::size_t count, const std::function<std::vector<CaseRow>(std::size_t)>& work,
               const std::function<void(std::size_t, const std::vector<CaseRow>&)>& take);
 

@@ -17,8 +17,7 @@ struct GridShape {
     int rows = 0, cols = 0;
 };
 
-/// A face as everything above preprocessing sees it: a gridded scan, an average face, a template or anybody's mesh. One
-/// frame, mm.
+/// A face that a motion is put on: a gridded scan, an average face, a template or anybody's mesh. One frame, mm.
 struct FaceSurface {
     std::vector<Point> vertices_mm;      ///< of vertices that are not `present`: any, also NaN
     std::vector<Triangle> triangles;     ///< counter-clockwise seen from outside; corners are present

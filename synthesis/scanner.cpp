@@ -172,6 +172,168 @@ geometry::Landmarks mark(const geometry::RangeScan& scan, const geometry::Landma
     return geometry::Landmarks(std::move(marks));
 }
 
+/// One exposure: the posed head, the lattice over it, and what the camera measures of it.
+class Exposure {
+public:
+    Exposure(const FaceModel& model, const std::vector<Point>& vertices_mm, const FaceWindow& window,
+             std::string scan_name, std::uint64_t seed, const ScannerOptions& options)
+        : model_(model), window_(window), name_(std::move(scan_name)), seed_(seed), options_(options) {
+        result_.scanner_from_head = draw_pose(stream("pose"), options);
+        vertices_.resize(vertices_mm.size());
+        for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i] = result_.scanner_from_head * vertices_mm[i];
+        triangles_ = geometry::triangulate(model.faces());
+        normals_ = geometry::vertex_normals(vertices_, triangles_);
+        lay_lattice();
+    }
+
+    SyntheticScan take() {
+        find_true_landmarks();
+        place_photograph();
+        measure_cells();
+        const auto& marks = model_.landmark_vertices();
+        result_.valid_points -=
+            trim_neck(result_.scan, lattice_, vertices_[marks.at("lower_lip_outer")].y(), vertices_[marks.at("chin")]);
+        // Marked on the clean scan: nobody puts a mark on a spike or on a piece of cloth.
+        result_.landmarks =
+            mark(result_.scan, result_.true_landmarks, landmark_normals_, name_, seed_, options_.marking_jitter);
+        add_spikes(result_.scan, stream("spikes"), options_.spikes);
+        add_stray_parts(result_.scan, lattice_, stream("stray"), options_.stray_parts);
+        see_photograph();
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] base::RandomStream stream(const char* of) const { return {seed_, name_ + "/" + of}; }
+
+    /// Over the window with a rim of background; it stands anywhere against the head.
+    void lay_lattice() {
+        const Point centre = result_.scanner_from_head * window_.centre_mm;
+        auto phase = stream("lattice");
+        const double rim_mm = 6.0, spacing = options_.spacing_mm;
+        lattice_.spacing_mm = spacing;
+        lattice_.cols = 2 * static_cast<int>((window_.half_width_mm + rim_mm) / spacing) + 1;
+        lattice_.rows = 2 * static_cast<int>((window_.half_height_mm + rim_mm) / spacing) + 1;
+        lattice_.x0_mm = centre.x() - spacing * (0.5 * lattice_.cols + phase.uniform());
+        lattice_.y0_mm = centre.y() - spacing * (0.5 * lattice_.rows + phase.uniform());
+    }
+    [[nodiscard]] double width_mm() const { return lattice_.cols * lattice_.spacing_mm; }
+    [[nodiscard]] double height_mm() const { return lattice_.rows * lattice_.spacing_mm; }
+
+    void find_true_landmarks() {
+        std::vector<geometry::Landmark> truth;
+        for (const auto name : geometry::standard_landmark_names()) {
+            const auto found = model_.landmark_vertices().find(std::string(name));
+            if (found == model_.landmark_vertices().end()) continue;
+            truth.push_back({found->first, vertices_[found->second], ""});
+            landmark_normals_[found->first] = normals_[found->second];
+        }
+        result_.true_landmarks = geometry::Landmarks(std::move(truth));
+    }
+
+    void place_photograph() {
+        const double rim_mm = 12.0, pixels_per_mm = options_.texture_pixels_per_mm;
+        result_.image_corner_mm = {lattice_.x0_mm - rim_mm, lattice_.y0_mm + height_mm() + rim_mm, 0};
+        result_.image_width = static_cast<int>((width_mm() + 2 * rim_mm) * pixels_per_mm);
+        result_.image_height = static_cast<int>((height_mm() + 2 * rim_mm) * pixels_per_mm);
+    }
+
+    /// Above which value of a standard normal field a vertex is lost.
+    [[nodiscard]] std::vector<double> hole_thresholds() const {
+        std::map<std::string, double> by_region;
+        std::vector<double> thresholds;
+        for (const auto& region : model_.vertex_regions()) {
+            const auto [entry, added] = by_region.try_emplace(region);
+            if (added) entry->second = exceeded_on(lost_share(region, options_));
+            thresholds.push_back(entry->second);
+        }
+        return thresholds;
+    }
+
+    void measure_cells() {
+        const auto hits = depth_raster(vertices_, triangles_, lattice_);
+        auto& scan = result_.scan;
+        scan.rows = lattice_.rows;
+        scan.cols = lattice_.cols;
+        scan.points_mm.assign(hits.size(), Point::Constant(std::numeric_limits<double>::quiet_NaN()));
+        scan.texture_coordinates.assign(hits.size(), geometry::TextureCoordinate::Zero());
+
+        const Point low(lattice_.x0_mm, lattice_.y0_mm, 0);
+        const Point high(lattice_.x0_mm + width_mm(), lattice_.y0_mm + height_mm(), 0);
+        const auto field = [&](const char* of, double length_mm) {
+            return SmoothField(base::stream_seed(seed_, name_ + "/" + of), 1, length_mm, low, high);
+        };
+        const auto smooth = field("smooth_noise", options_.smooth_noise_length_mm);
+        const auto patches = field("holes", 1.6), border = field("border", 9.0);
+        const auto thresholds = hole_thresholds();
+        const auto head_from_scanner = result_.scanner_from_head.inverse();
+        auto noise = stream("noise");
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            const auto& hit = hits[i];
+            // Drawn for every cell, so that a hole more or less leaves the other cells' noise as it was.
+            const Vector drawn(noise.normal(), noise.normal(), noise.normal());
+            if (!hit.hit() || !hit.front) continue;
+            const auto cols = static_cast<std::size_t>(lattice_.cols);
+            const Point seen(lattice_.x0_mm + static_cast<double>(i % cols) * lattice_.spacing_mm,
+                             lattice_.y0_mm + static_cast<double>(i / cols) * lattice_.spacing_mm, hit.z_mm);
+            const double level = window_.level(head_from_scanner * seen);
+            // Farther from the border than ten standard deviations its raggedness decides nothing.
+            if (level > 1.15 || (level > 0.85 && level > 1.0 + 0.015 * border.at(seen)[0])) continue;
+            if (is_lost(hit, seen, thresholds, patches)) continue;
+            Point measured = seen;
+            measured.x() += options_.noise_xy_mm * drawn.x();
+            measured.y() += options_.noise_xy_mm * drawn.y();
+            measured.z() += options_.noise_z_mm * drawn.z() + options_.smooth_noise_z_mm * smooth.at(seen)[0];
+            scan.points_mm[i] = measured;
+            ++result_.valid_points;
+        }
+    }
+
+    /// Whether it turns away too far, or is in a hole; counts it.
+    bool is_lost(const RasterHit& hit, const Point& seen, const std::vector<double>& thresholds,
+                 const SmoothField& patches) {
+        const auto& corners = triangles_[hit.triangle];
+        Vector normal = Vector::Zero();
+        for (int c = 0; c < 3; ++c) normal += hit.barycentric[c] * normals_[corners[static_cast<std::size_t>(c)]];
+        if (normal.z() < options_.min_normal_z * normal.norm()) {
+            ++result_.lost_grazing;
+            return true;
+        }
+        int nearest = 0;
+        hit.barycentric.maxCoeff(&nearest);
+        const double threshold = thresholds[corners[static_cast<std::size_t>(nearest)]];
+        if (std::isfinite(threshold) ? patches.at(seen)[0] > threshold : threshold < 0) {
+            ++result_.lost_holes;
+            return true;
+        }
+        return false;
+    }
+
+    void see_photograph() {
+        auto& scan = result_.scan;
+        for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
+            if (!scan.valid(i)) continue;
+            const Point& p = scan.points_mm[i];
+            const double u =
+                (p.x() - result_.image_corner_mm.x()) * options_.texture_pixels_per_mm / result_.image_width;
+            const double down =
+                (result_.image_corner_mm.y() - p.y()) * options_.texture_pixels_per_mm / result_.image_height;
+            scan.texture_coordinates[i] = {std::clamp(u, 0.0, 1.0), std::clamp(1.0 - down, 0.0, 1.0)};
+        }
+    }
+
+    const FaceModel& model_;
+    const FaceWindow& window_;
+    std::string name_;
+    std::uint64_t seed_;
+    const ScannerOptions& options_;
+    SyntheticScan result_;
+    std::vector<Point> vertices_;  // scanner frame
+    std::vector<geometry::Triangle> triangles_;
+    std::vector<Vector> normals_;
+    RasterLattice lattice_;
+    std::map<std::string, Vector> landmark_normals_;
+};
+
 }  // namespace
 
 void ScannerOptions::check() const {
@@ -224,111 +386,8 @@ FaceWindow face_window(const FaceModel& model, const std::vector<Point>& resting
 SyntheticScan scan_face(const FaceModel& model, const std::vector<Point>& vertices_mm, const FaceWindow& resting_window,
                         const std::string& scan_name, std::uint64_t seed, const ScannerOptions& options) {
     options.check();
-    const FaceWindow window = resting_window.following_chin(vertices_mm[model.landmark_vertices().at("chin")].y());
-    SyntheticScan result;
-    result.scanner_from_head = draw_pose(base::RandomStream(seed, scan_name + "/pose"), options);
-    std::vector<Point> vertices(vertices_mm.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = result.scanner_from_head * vertices_mm[i];
-    const auto triangles = geometry::triangulate(model.faces());
-    const auto normals = geometry::vertex_normals(vertices, triangles);
-
-    std::vector<geometry::Landmark> truth;
-    std::map<std::string, Vector> landmark_normals;
-    for (const auto name : geometry::standard_landmark_names()) {
-        const auto found = model.landmark_vertices().find(std::string(name));
-        if (found == model.landmark_vertices().end()) continue;
-        truth.push_back({found->first, vertices[found->second], ""});
-        landmark_normals[found->first] = normals[found->second];
-    }
-    result.true_landmarks = geometry::Landmarks(std::move(truth));
-
-    // The lattice covers the window with a rim of background, and stands anywhere against the head.
-    const Point centre = result.scanner_from_head * window.centre_mm;
-    base::RandomStream phase(seed, scan_name + "/lattice");
-    const double rim_mm = 6.0;
-    RasterLattice lattice;
-    lattice.spacing_mm = options.spacing_mm;
-    lattice.cols = 2 * static_cast<int>((window.half_width_mm + rim_mm) / options.spacing_mm) + 1;
-    lattice.rows = 2 * static_cast<int>((window.half_height_mm + rim_mm) / options.spacing_mm) + 1;
-    lattice.x0_mm = centre.x() - options.spacing_mm * (0.5 * lattice.cols + phase.uniform());
-    lattice.y0_mm = centre.y() - options.spacing_mm * (0.5 * lattice.rows + phase.uniform());
-    const auto hits = depth_raster(vertices, triangles, lattice);
-
-    const double width_mm = lattice.cols * lattice.spacing_mm, height_mm = lattice.rows * lattice.spacing_mm;
-    const double photo_rim_mm = 12.0;
-    result.image_corner_mm = {lattice.x0_mm - photo_rim_mm, lattice.y0_mm + height_mm + photo_rim_mm, 0};
-    result.image_width = static_cast<int>((width_mm + 2 * photo_rim_mm) * options.texture_pixels_per_mm);
-    result.image_height = static_cast<int>((height_mm + 2 * photo_rim_mm) * options.texture_pixels_per_mm);
-
-    auto& scan = result.scan;
-    scan.rows = lattice.rows;
-    scan.cols = lattice.cols;
-    scan.points_mm.assign(hits.size(), Point::Constant(std::numeric_limits<double>::quiet_NaN()));
-    scan.texture_coordinates.assign(hits.size(), geometry::TextureCoordinate::Zero());
-
-    const Point low(lattice.x0_mm, lattice.y0_mm, 0), high(lattice.x0_mm + width_mm, lattice.y0_mm + height_mm, 0);
-    const SmoothField smooth(base::stream_seed(seed, scan_name + "/smooth_noise"), 1, options.smooth_noise_length_mm,
-                             low, high);
-    const SmoothField patches(base::stream_seed(seed, scan_name + "/holes"), 1, 1.6, low, high);
-    const SmoothField border(base::stream_seed(seed, scan_name + "/border"), 1, 9.0, low, high);
-    std::map<std::string, double> by_region;
-    std::vector<double> thresholds;
-    for (const auto& region : model.vertex_regions()) {
-        const auto [entry, added] = by_region.try_emplace(region);
-        if (added) entry->second = exceeded_on(lost_share(region, options));
-        thresholds.push_back(entry->second);
-    }
-    const auto head_from_scanner = result.scanner_from_head.inverse();
-    base::RandomStream noise(seed, scan_name + "/noise");
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        const auto& hit = hits[i];
-        // Drawn for every cell, so that a hole more or less leaves the other cells' noise as it was.
-        const Vector drawn(noise.normal(), noise.normal(), noise.normal());
-        if (!hit.hit() || !hit.front) continue;
-        const double col = static_cast<double>(i % static_cast<std::size_t>(lattice.cols));
-        const std::size_t lowest_first = i / static_cast<std::size_t>(lattice.cols);
-        const auto row = static_cast<double>(lowest_first);
-        const Point seen(lattice.x0_mm + col * lattice.spacing_mm, lattice.y0_mm + row * lattice.spacing_mm, hit.z_mm);
-        const double level = window.level(head_from_scanner * seen);
-        // Farther from the border than ten standard deviations its raggedness decides nothing.
-        if (level > 1.15 || (level > 0.85 && level > 1.0 + 0.015 * border.at(seen)[0])) continue;
-        const auto& corners = triangles[hit.triangle];
-        Vector normal = Vector::Zero();
-        for (int c = 0; c < 3; ++c) normal += hit.barycentric[c] * normals[corners[static_cast<std::size_t>(c)]];
-        if (normal.z() < options.min_normal_z * normal.norm()) {
-            ++result.lost_grazing;
-            continue;
-        }
-        int nearest = 0;
-        hit.barycentric.maxCoeff(&nearest);
-        const double threshold = thresholds[corners[static_cast<std::size_t>(nearest)]];
-        if (std::isfinite(threshold) ? patches.at(seen)[0] > threshold : threshold < 0) {
-            ++result.lost_holes;
-            continue;
-        }
-        Point measured = seen;
-        measured.x() += options.noise_xy_mm * drawn.x();
-        measured.y() += options.noise_xy_mm * drawn.y();
-        measured.z() += options.noise_z_mm * drawn.z() + options.smooth_noise_z_mm * smooth.at(seen)[0];
-        scan.points_mm[i] = measured;
-        ++result.valid_points;
-    }
-    const auto& marks = model.landmark_vertices();
-    result.valid_points -=
-        trim_neck(scan, lattice, vertices[marks.at("lower_lip_outer")].y(), vertices[marks.at("chin")]);
-    // Marked on the clean scan: nobody puts a mark on a spike or on a piece of cloth.
-    result.landmarks = mark(scan, result.true_landmarks, landmark_normals, scan_name, seed, options.marking_jitter);
-    add_spikes(scan, base::RandomStream(seed, scan_name + "/spikes"), options.spikes);
-    add_stray_parts(scan, lattice, base::RandomStream(seed, scan_name + "/stray"), options.stray_parts);
-
-    for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
-        if (!scan.valid(i)) continue;
-        const Point& p = scan.points_mm[i];
-        const double u = (p.x() - result.image_corner_mm.x()) * options.texture_pixels_per_mm / result.image_width;
-        const double down = (result.image_corner_mm.y() - p.y()) * options.texture_pixels_per_mm / result.image_height;
-        scan.texture_coordinates[i] = {std::clamp(u, 0.0, 1.0), std::clamp(1.0 - down, 0.0, 1.0)};
-    }
-    return result;
+    const auto window = resting_window.following_chin(vertices_mm[model.landmark_vertices().at("chin")].y());
+    return Exposure(model, vertices_mm, window, scan_name, seed, options).take();
 }
 
 }  // namespace mimik::synthesis

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "animation/sparse_method.h"
 #include "base/errors.h"
 #include "base/file.h"
 #include "tests/database/temporary_folder.h"
@@ -94,6 +95,29 @@ TEST_F(CastTest, methods_that_take_the_same_lessons_share_them_and_what_is_not_h
     studied = 0;
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(narrow.lesson(0, k)->bytes(), roomy.lesson(0, k)->bytes()) << k;
     EXPECT_EQ(studied, 2);
+}
+
+TEST_F(CastTest, methods_that_share_lessons_still_make_their_own_of_them) {
+    const PerformanceReader reader(*workspace_);
+    animation::SparseMethod::Setting plain{.name = "plain", .needs = animation::SourceKind::one_source};
+    auto thin_plate = plain;
+    thin_plate.name = "thin-plate";
+    thin_plate.animation.kernel = geometry::SplineKernel::r2_log_r2;
+    const std::vector<animation::MethodPointer> methods = {std::make_shared<animation::SparseMethod>(plain),
+                                                           std::make_shared<animation::SparseMethod>(thin_plate)};
+    FailureList failures;
+    const auto expression = test::expression("12");
+    const animation::LearningTask task{expression, workspace_->average(), facs::builtin_catalogue()};
+    LessonBook book(reader, task, methods, failures);
+    book.add(smile(0), book.study(reader.read(smile(0))));
+    ASSERT_EQ(book.lesson(0, 0), book.lesson(1, 0));
+    const animation::PreparedTarget target(reader.read(smile(1)).neutral);
+    const auto field_by = [&](std::size_t method) {
+        return book.learner(method).learn(std::vector{book.lesson(method, 0)})->on(target).mm;
+    };
+    EXPECT_EQ(field_by(0), animation::learn(*methods[0], task, std::vector{reader.read(smile(0))})->on(target).mm);
+    EXPECT_EQ(field_by(1), animation::learn(*methods[1], task, std::vector{reader.read(smile(0))})->on(target).mm);
+    EXPECT_NE(field_by(0), field_by(1));
 }
 
 TEST_F(CastTest, the_true_smile_of_the_analytic_faces_is_that_of_the_closed_form) {

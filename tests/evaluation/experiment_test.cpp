@@ -188,8 +188,10 @@ TEST_F(Experiment, what_cannot_be_scored_is_refused_by_name_before_any_work) {
     options = smile_options();
     options.max_sources = -1;
     EXPECT_THAT(message_of<InputError>([&] { (void)run(*workspace_, options); }), HasSubstr("max_sources is -1"));
-    EXPECT_THAT(message_of<InputError>([] { (void)animation::method_by_name("best"); }),
-                HasSubstr("'best' is unknown; there are: default, mean, nothing, thesis, true-field, true-field-mean"));
+    const auto unknown = message_of<InputError>([] { (void)animation::method_by_name("best"); });
+    EXPECT_THAT(unknown, HasSubstr("'best' is unknown; there are: "));
+    for (const auto* name : {"default", "mean", "nothing", "thesis", "true-field", "true-field-mean"})
+        EXPECT_THAT(unknown, HasSubstr(name));
 }
 
 TEST_F(Experiment, a_damaged_face_and_a_hidden_subject_take_no_part_and_the_rest_is_scored) {

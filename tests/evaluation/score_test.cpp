@@ -39,6 +39,17 @@ TEST(Score, of_an_oracle_is_one_and_sums_over_cases_come_before_the_quotient) {
     EXPECT_EQ(score.left_out_vertices, 6U);
 }
 
+TEST(Score, knows_no_case_whose_baseline_is_another_face) {
+    const CaseKey nothing{"", "bs000", "12", "nothing"}, own{"bs001", "bs000", "12", "own"};
+    const CaseKey stranger{"bs001", "bs002", "12", "own"};
+    const auto table = scores_of([&](const auto& visit) {
+        for (const auto& [key, mm] : {std::pair(nothing, 2.0), std::pair(own, 1.0), std::pair(stranger, 8.0)})
+            visit({key, "surface_distance", "zone", "mean", mm, "mm", ""});
+    });
+    EXPECT_EQ(table.at("own").at("12").cases, 1U);
+    EXPECT_EQ(table.at("own").at("12").explained, 0.5);
+}
+
 TEST(Score, of_overshooting_is_negative_and_counted_as_worse_than_nothing) {
     const auto score = score_of({{"nothing", "", 2}, {"own", "bs001", 4}, {"own", "bs002", 2}}, "own");
     EXPECT_EQ(score.worse_than_nothing, 1U);

@@ -47,6 +47,27 @@ TEST(InOrder, takes_every_unit_once_in_order_though_an_early_one_is_slow) {
     for (std::size_t t = 0; t < taken.size(); ++t) EXPECT_EQ(taken[t], t);
 }
 
+TEST(InOrder, of_several_failing_units_the_first_is_told_whatever_the_threads) {
+    for (const int threads : {1, 2, 4}) {
+        base::set_thread_count(threads);
+        std::atomic<std::size_t> last_taken = 0;
+        EXPECT_EQ(test::message_of<InputError>([&] {
+                      in_order(
+                          40,
+                          [](std::size_t t) {
+                              if (t == 7) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                              if (t >= 7) throw InputError("unit " + std::to_string(t));
+                              return row_of(t);
+                          },
+                          [&](std::size_t t, const std::vector<CaseRow>&) { last_taken = t; });
+                  }),
+                  "unit 7")
+            << threads;
+        EXPECT_EQ(last_taken, 6U) << threads;
+    }
+    base::set_thread_count(0);
+}
+
 TEST(InOrder, begins_units_in_order_so_that_few_results_wait) {
     base::set_thread_count(1);
     std::vector<std::size_t> begun;

@@ -17,7 +17,7 @@ inline evaluation::ExperimentReport report_of(double one, double mean, std::size
         evaluation::MethodScores row;
         row.method = reference ? "true field" : "default";
         row.kind = kind;
-        row.reference = reference;
+        row.reference = row.bound = reference;
         row.explained = explained;
         for (const auto& expression : report.expressions)
             row.per_expression[expression.code()].cases =
