@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Raised whenever summaries or checks change their meaning: older catalogues are then built anew.
-constexpr int catalogue_version = 5;
+/// Raised whenever summaries or checks change their meaning: older indexes are then built anew.
+constexpr int index_version = 5;
 
 // As SQLite keeps them: a file that has anything else, such as a view or a trigger, is none of ours.
 constexpr const char* about_table = "CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL)";
@@ -35,7 +35,7 @@ constexpr const char* scans_table =
 constexpr int most_value_bytes = 1 << 24;
 constexpr std::size_t most_bytes = std::size_t{1} << 28;
 
-/// A catalogue that cannot be used, with the reason; never leaves this file.
+/// An index that cannot be used, with the reason; never leaves this file.
 struct CacheTrouble {
     std::string reason;
     bool damaged = false;  ///< worth deleting and building anew
@@ -197,19 +197,19 @@ struct Remembered {
     std::string state, summary, check_state, findings;
 };
 
-/// Opens or makes the tables; a catalogue of another version or of another database (same hash) is emptied.
+/// Opens or makes the tables; an index of another version or of another database (same hash) is emptied.
 void prepare(Cache& cache, const std::string& root) {
     int version = 0;
     {
         Statement statement(cache, "PRAGMA user_version");
         if (statement.row()) version = statement.number(0);
     }
-    bool usable = version == catalogue_version;
+    bool usable = version == index_version;
     if (usable) {
         Statement schema(cache, "SELECT sql FROM sqlite_master WHERE sql IS NOT NULL ORDER BY name");
         for (const char* table : {about_table, scans_table})
-            if (!schema.row() || schema.text(0) != table) cache.refuse("its tables are not those of a catalogue");
-        if (schema.row()) cache.refuse("it has more than the tables of a catalogue");
+            if (!schema.row() || schema.text(0) != table) cache.refuse("its tables are not those of a scan index");
+        if (schema.row()) cache.refuse("it has more than the tables of an index");
         Statement statement(cache, "SELECT value FROM about WHERE name = 'database'");
         usable = statement.row() && statement.text(0) == root;
     }
@@ -218,7 +218,7 @@ void prepare(Cache& cache, const std::string& root) {
     cache.run("DROP TABLE IF EXISTS scans");
     cache.run(about_table);
     cache.run(scans_table);
-    cache.run(fmt::format("PRAGMA user_version = {}", catalogue_version).c_str());
+    cache.run(fmt::format("PRAGMA user_version = {}", index_version).c_str());
     Statement statement(cache, "INSERT INTO about VALUES ('database', ?)");
     statement.bind(1, root);
     statement.finish();
@@ -255,7 +255,7 @@ void write_all(Cache& cache, const std::map<std::string, Remembered>& changed, c
     }
 }
 
-/// What the catalogue remembers of this scan, if it still holds; with findings if they do.
+/// What the index remembers of this scan, if it still holds; with findings if they do.
 std::optional<ScanSummary> recall(const Remembered& row, const std::string& state, const std::string& check_state,
                                   bool check) {
     const bool checked = row.check_state == check_state;
@@ -379,10 +379,10 @@ ScanIndexResult scan_index(const ScanDatabase& database, std::span<const ScanEnt
                 std::error_code ignored;
                 fs::remove(file, ignored);
                 for (const char* suffix : {"-journal", "-wal", "-shm"}) fs::remove(file.string() + suffix, ignored);
-                result.remark += "; the catalogue is built anew";
+                result.remark += "; the index is built anew";
                 result.file = file;
             } else {
-                result.remark += "; the scans are read without a catalogue";
+                result.remark += "; the scans are read without an index";
             }
         }
     }
@@ -418,7 +418,7 @@ ScanIndexResult scan_index(const ScanDatabase& database, std::span<const ScanEnt
                        options.check ? check_states[i] : std::string(), to_json(result.summaries[i].findings)};
         changed[keys[i]] = std::move(row);
     }
-    // Scans that left the database leave the catalogue.
+    // Scans that left the database leave the index.
     std::vector<std::string> gone;
     for (const auto& entry : database.scans) remembered.erase(key_of(entry));
     gone.reserve(remembered.size());

@@ -43,20 +43,20 @@ struct ScanIndexOptions {
 struct ScanIndexResult {
     std::vector<ScanSummary> summaries;
     std::size_t scans_read = 0;        ///< opened this time
-    std::size_t scans_remembered = 0;  ///< taken from the catalogue
-    std::filesystem::path file;        ///< of the catalogue; empty: none was used
-    std::string remark;                ///< why the catalogue was rebuilt or not used; empty: all well
+    std::size_t scans_remembered = 0;  ///< taken from the index
+    std::filesystem::path file;        ///< of the index; empty: none was used
+    std::string remark;                ///< why the index was rebuilt or not used; empty: all well
 };
 
-/// The catalogue of a database is an SQLite file in the user's cache, one per database (named after its absolute path),
+/// The index of a database is an SQLite file in the user's cache, one per database (named after its absolute path),
 /// never in the database. A scan is opened again when the time or size of one of its files (also of those that the scan
 /// file names), its unit, its name or (for the doctor) the options have changed, and where it could not be read. A
-/// catalogue that is damaged is built anew; one that is locked or cannot be written is done without: it is never a
+/// index that is damaged is built anew; one that is locked or cannot be written is done without: it is never a
 /// reason to fail. Scans are opened in parallel.
 [[nodiscard]] ScanIndexResult scan_index(const ScanDatabase& database, std::span<const ScanEntry* const> scans,
                                          const ScanIndexOptions& options = {});
 
-/// Where the catalogue of a database lies; empty if the user has no cache folder (neither variable is set).
+/// Where the index of a database lies; empty if the user has no cache folder (neither variable is set).
 [[nodiscard]] std::filesystem::path scan_index_file(const ScanDatabase& database, const ScanIndexOptions& options = {});
 
 }  // namespace mimik::database

@@ -346,7 +346,7 @@ std::string encode_expression_model(const ExpressionModel& model) {
                                {"expression", model.expression.name()},
                                {"moves_upper_face", model.moves_upper_face},
                                {"moves_lower_face", model.moves_lower_face},
-                               {"frame", model.normalisation == Normalisation::affine ? "affine" : "similarity"},
+                               {"frame", to_string(model.normalisation)},
                                {"units", "mm"},
                                {"sources", model.sources},
                                {"mouth_width_mm", model.mouth_width_mm},

@@ -74,12 +74,8 @@ std::vector<Point> moved_vertices(const geometry::QuadGrid& grid, const Animated
     return moved;
 }
 
-modeling::ExpressionSource source_of(const Workspace& workspace, const ComparisonRequest& request) {
-    modeling::ExpressionSource source{request.source, {request.target}};
-    for (const auto& subject : workspace.subjects())
-        if (workspace.hidden(subject)) source.excluded.push_back(subject);
-    return source;
-}
+/// Hidden subjects are no sources anyway.
+modeling::ExpressionSource source_of(const ComparisonRequest& request) { return {request.source, {request.target}}; }
 
 /// The average face as somebody who can be animated.
 Face average_person(const Workspace& workspace) {
@@ -354,11 +350,11 @@ std::string series_name(const ComparisonRequest& request, std::span<const facs::
 ComparedScans compared_scans(const Workspace& workspace, const FacsCatalogue& catalogue,
                              const ComparisonRequest& request) {
     workspace.refuse_hidden(request.target);
-    modeling::check_source(workspace, source_of(workspace, request), request.model);
+    modeling::check_source(workspace, source_of(request), request.model);
     (void)workspace.neutral(request.target);
     (void)catalogue.units(request.expression);
     ComparedScans scans;
-    const auto sources = modeling::source_scans(workspace, request.expression, source_of(workspace, request));
+    const auto sources = modeling::source_scans(workspace, request.expression, source_of(request));
     if (request.source != "mean") scans.source = sources.front();
     scans.target = workspace.scan_of(request.target, request.expression);
     return scans;
@@ -387,8 +383,7 @@ Person source_person(const Workspace& workspace, const FacsCatalogue& catalogue,
 /// The average face in the place of a source.
 Person average_in_place_of_source(const Workspace& workspace, const FacsCatalogue& catalogue,
                                   const ComparisonRequest& request, ExpressionModel& model, ComparisonFigure& figure) {
-    model = modeling::model_from_workspace(workspace, catalogue, request.expression, source_of(workspace, request),
-                                           request.model);
+    model = modeling::model_from_workspace(workspace, catalogue, request.expression, source_of(request), request.model);
     add_unusable(figure, model);
     Person average("average");
     average.neutral = average_person(workspace);
@@ -486,8 +481,8 @@ ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCa
     FigureFolder out(folder, request);
     std::vector<std::string> words;
     for (const auto& expression : expressions) {
-        const auto model = modeling::model_from_workspace(workspace, catalogue, expression,
-                                                          source_of(workspace, request), request.model);
+        const auto model =
+            modeling::model_from_workspace(workspace, catalogue, expression, source_of(request), request.model);
         words.push_back(expression_words(catalogue, expression));
         add_left_out(figure, model);
         add_unusable(figure, model);

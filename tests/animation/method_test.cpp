@@ -106,9 +106,12 @@ TEST(Methods, put_an_expression_on_anybodys_mesh_by_one_call) {
             worst_mm = std::max(worst_mm, (2 * (half.vertices_mm[v] - mesh.vertices_mm[v]) - way).norm());
         }
         EXPECT_LT(worst_mm, 1e-9) << method->name();  // rounding
-        if (method->name() == "nothing") EXPECT_EQ(largest_mm, 0);
-        for (const auto* ours : {"default", "mean", "thesis"})
-            if (method->name() == ours) EXPECT_GT(largest_mm, 3) << ours;  // the source's mouth corners move by 6 mm
+        const auto name = method->name();
+        if (name == "nothing") {
+            EXPECT_EQ(largest_mm, 0);
+        } else if (name == "default" || name == "mean" || name == "thesis") {
+            EXPECT_GT(largest_mm, 3) << name;  // the source's mouth corners move by 6 mm
+        }
     }
 }
 

@@ -17,9 +17,9 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// A database of three scans beside a cache folder.
-class CatalogueTest : public testing::Test {
+class ScanIndexTest : public testing::Test {
 protected:
-    CatalogueTest() {
+    ScanIndexTest() {
         for (const char* name : {"bs000_N_N_0", "bs000_LFAU_12L_0", "bs001_N_N_0"})
             write_scan(root(), name, make_face());
         options_.folder = folder_.path() / "cache";
@@ -36,7 +36,7 @@ protected:
     ScanIndexOptions options_;
 };
 
-TEST_F(CatalogueTest, a_second_listing_opens_no_scan_and_says_the_same) {
+TEST_F(ScanIndexTest, a_second_listing_opens_no_scan_and_says_the_same) {
     const auto first = list();
     EXPECT_EQ(first.scans_read, 3U);
     EXPECT_EQ(first.remark, "");
@@ -49,7 +49,7 @@ TEST_F(CatalogueTest, a_second_listing_opens_no_scan_and_says_the_same) {
     EXPECT_THAT(second.summaries[0].missing_landmarks(), IsEmpty());
 }
 
-TEST_F(CatalogueTest, nothing_is_written_into_the_database) {
+TEST_F(ScanIndexTest, nothing_is_written_into_the_database) {
     const auto names = [&] {
         std::vector<std::string> all;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(root()))
@@ -63,7 +63,7 @@ TEST_F(CatalogueTest, nothing_is_written_into_the_database) {
     EXPECT_TRUE(std::filesystem::is_regular_file(file()));
 }
 
-TEST_F(CatalogueTest, a_file_that_changed_is_read_again) {
+TEST_F(ScanIndexTest, a_file_that_changed_is_read_again) {
     (void)list();
     MadeFace face = make_face();
     face.landmarks = moved(face.landmarks, {{"chin", {0, 0, 1}}});
@@ -73,7 +73,7 @@ TEST_F(CatalogueTest, a_file_that_changed_is_read_again) {
     EXPECT_EQ(again.scans_remembered, 2U);
 }
 
-TEST_F(CatalogueTest, the_doctors_findings_are_remembered_and_shown_by_a_plain_listing) {
+TEST_F(ScanIndexTest, the_doctors_findings_are_remembered_and_shown_by_a_plain_listing) {
     MadeFace face = make_face();
     face.scan.points_mm[25 * 61 + 30].z() += 12;
     write_scan(root(), "bs001_N_N_0", face);
@@ -89,13 +89,13 @@ TEST_F(CatalogueTest, the_doctors_findings_are_remembered_and_shown_by_a_plain_l
     EXPECT_FALSE(plain.summaries[2].has_error());
 }
 
-TEST_F(CatalogueTest, other_doctor_options_check_again) {
+TEST_F(ScanIndexTest, other_doctor_options_check_again) {
     (void)list(true);
     options_.doctor.spike_mm = 9;
     EXPECT_EQ(list(true).scans_read, 3U);
 }
 
-TEST_F(CatalogueTest, an_unreadable_scan_is_listed_with_its_error) {
+TEST_F(ScanIndexTest, an_unreadable_scan_is_listed_with_its_error) {
     std::filesystem::resize_file(root() / "bs001/bs001_N_N_0.bnt", 100);
     const auto result = list();
     EXPECT_THAT(result.summaries[2].error, HasSubstr("bs001_N_N_0.bnt: has 100 bytes"));
@@ -107,7 +107,7 @@ TEST_F(CatalogueTest, an_unreadable_scan_is_listed_with_its_error) {
     EXPECT_TRUE(list(true).summaries[2].has_error());
 }
 
-TEST_F(CatalogueTest, an_image_that_only_the_scan_file_names_is_looked_for_again) {
+TEST_F(ScanIndexTest, an_image_that_only_the_scan_file_names_is_looked_for_again) {
     MadeFace face = make_face("skin.png");
     write_scan(root(), "bs001_N_N_0", face);
     std::filesystem::remove(root() / "bs001/bs001_N_N_0.png");
@@ -122,7 +122,7 @@ TEST_F(CatalogueTest, an_image_that_only_the_scan_file_names_is_looked_for_again
     EXPECT_EQ(list(true).scans_read, 0U);
 }
 
-TEST_F(CatalogueTest, rows_of_a_manifest_that_share_a_scan_file_are_remembered_apart) {
+TEST_F(ScanIndexTest, rows_of_a_manifest_that_share_a_scan_file_are_remembered_apart) {
     base::write_atomically(root() / "manifest.csv",
                            "subject,expression,scan,landmarks\n"
                            "anna,N,bs000/bs000_N_N_0.bnt,bs000/bs000_N_N_0.lm3\n"
@@ -135,7 +135,7 @@ TEST_F(CatalogueTest, rows_of_a_manifest_that_share_a_scan_file_are_remembered_a
     EXPECT_EQ(second.summaries[1].landmarks.size(), 0U);
 }
 
-TEST_F(CatalogueTest, a_damaged_catalogue_is_built_anew) {
+TEST_F(ScanIndexTest, a_damaged_index_is_built_anew) {
     const auto first = list();
     std::ofstream(file(), std::ios::binary | std::ios::trunc) << std::string(5000, 'x');
     const auto rebuilt = list();
@@ -147,7 +147,7 @@ TEST_F(CatalogueTest, a_damaged_catalogue_is_built_anew) {
     EXPECT_EQ(after.remark, "");
 }
 
-TEST_F(CatalogueTest, damage_inside_a_row_reads_that_scan_again) {
+TEST_F(ScanIndexTest, damage_inside_a_row_reads_that_scan_again) {
     (void)list();
     sqlite3* handle = nullptr;
     ASSERT_EQ(sqlite3_open(file().c_str(), &handle), SQLITE_OK);
@@ -159,7 +159,7 @@ TEST_F(CatalogueTest, damage_inside_a_row_reads_that_scan_again) {
     EXPECT_EQ(list().scans_read, 0U);
 }
 
-TEST_F(CatalogueTest, a_catalogue_with_anything_but_its_tables_is_built_anew) {
+TEST_F(ScanIndexTest, an_index_with_anything_but_its_tables_is_built_anew) {
     const auto change = [&](const char* sql) {
         (void)list();
         sqlite3* handle = nullptr;
@@ -186,7 +186,7 @@ TEST_F(CatalogueTest, a_catalogue_with_anything_but_its_tables_is_built_anew) {
     EXPECT_EQ(list().scans_read, 0U);
 }
 
-TEST_F(CatalogueTest, a_locked_catalogue_is_done_without) {
+TEST_F(ScanIndexTest, a_locked_index_is_done_without) {
     (void)list();
     sqlite3* handle = nullptr;
     ASSERT_EQ(sqlite3_open(file().c_str(), &handle), SQLITE_OK);
@@ -194,26 +194,26 @@ TEST_F(CatalogueTest, a_locked_catalogue_is_done_without) {
     const auto result = list();
     sqlite3_close(handle);
     EXPECT_EQ(result.scans_read, 3U);
-    EXPECT_THAT(result.remark, HasSubstr("locked; the scans are read without a catalogue"));
+    EXPECT_THAT(result.remark, HasSubstr("locked; the scans are read without an index"));
     EXPECT_EQ(list().scans_read, 0U);
 }
 
-TEST_F(CatalogueTest, a_cache_folder_that_cannot_be_made_is_done_without) {
+TEST_F(ScanIndexTest, a_cache_folder_that_cannot_be_made_is_done_without) {
     base::write_atomically(folder_.path() / "cache", "a file where the folder should be");
     const auto result = list();
     EXPECT_EQ(result.scans_read, 3U);
-    EXPECT_THAT(result.remark, HasSubstr("without a catalogue"));
+    EXPECT_THAT(result.remark, HasSubstr("without an index"));
     EXPECT_TRUE(result.file.empty());
 }
 
-TEST_F(CatalogueTest, without_cache_nothing_is_kept) {
+TEST_F(ScanIndexTest, without_cache_nothing_is_kept) {
     options_.use_cache = false;
     (void)list();
     EXPECT_EQ(list().scans_read, 3U);
     EXPECT_FALSE(std::filesystem::exists(options_.folder));
 }
 
-TEST_F(CatalogueTest, a_scan_that_left_the_database_leaves_the_catalogue) {
+TEST_F(ScanIndexTest, a_scan_that_left_the_database_leaves_the_index) {
     (void)list();
     std::filesystem::remove_all(root() / "bs001");
     EXPECT_EQ(list().scans_remembered, 2U);
@@ -221,14 +221,14 @@ TEST_F(CatalogueTest, a_scan_that_left_the_database_leaves_the_catalogue) {
     EXPECT_EQ(list().scans_read, 1U);
 }
 
-TEST_F(CatalogueTest, progress_is_called_once_per_scan) {
+TEST_F(ScanIndexTest, progress_is_called_once_per_scan) {
     std::atomic<int> calls = 0;
     options_.progress = [&](const ScanEntry&) { ++calls; };
     (void)list();
     EXPECT_EQ(calls, 3);
 }
 
-TEST(CatalogueFile, lies_in_the_users_cache_and_not_in_the_database) {
+TEST(ScanIndexFile, lies_in_the_users_cache_and_not_in_the_database) {
     ScanDatabase a, b;
     a.root = "/data/a";
     b.root = "/data/b";

@@ -99,7 +99,8 @@ TEST_F(CastTest, methods_that_take_the_same_lessons_share_them_and_what_is_not_h
 
 TEST_F(CastTest, methods_that_share_lessons_still_make_their_own_of_them) {
     const PerformanceReader reader(*workspace_);
-    animation::SparseMethod::Setting plain{.name = "plain", .needs = animation::SourceKind::one_source};
+    animation::SparseMethod::Setting plain;
+    plain.name = "plain";
     auto thin_plate = plain;
     thin_plate.name = "thin-plate";
     thin_plate.animation.kernel = geometry::SplineKernel::r2_log_r2;

@@ -79,8 +79,8 @@ TEST(FieldExtent, of_a_grid_compares_rows_and_columns_and_leaves_out_what_is_no_
     auto extent = field_extent(surface, field);
     EXPECT_EQ(extent.largest_displacement_mm, 5);
     EXPECT_EQ(extent.largest_neighbour_step_mm, 5);
-    field[4] = field[0] = field[2] =
-        field[1];  // 3 differs from its neighbours 0 and 4; from 1, across a quad, nobody asks
+    // 3 differs from its neighbours 0 and 4; from 1, across a quad, nobody asks.
+    field[4] = field[0] = field[2] = field[1];
     EXPECT_EQ(field_extent(surface, field).largest_neighbour_step_mm, 5);
     field[3] = field[1];
     extent = field_extent(surface, field);
