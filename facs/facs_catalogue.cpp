@@ -18,6 +18,7 @@
 #include "base/text.h"
 #include "facs/arkit_shapes.h"
 #include "facs/reference_face.h"
+#include "facs/toml_depth.h"
 #include "geometry/landmarks.h"
 
 namespace mimik::facs {
@@ -35,7 +36,7 @@ std::string upper(std::string text) {
 }
 
 // Far more than a catalogue has; a file of another kind must not fill the memory with complaints.
-constexpr std::size_t most_findings = 1000, most_points = 1000;
+constexpr std::size_t most_findings = 1000, most_points = 1000, deepest = 32;  // a catalogue goes 4 deep
 constexpr double largest_weight = 10.0;
 
 struct TooManyFindings {};
@@ -332,6 +333,11 @@ void read_document(Reader& reader, const toml::table& document, Parsed& parsed) 
 
 Parsed read(const std::string& text, std::vector<LintFinding>& findings) {
     Parsed parsed;
+    if (const auto line = line_too_deep(text, deepest); line > 0) {
+        findings.push_back({true, static_cast<unsigned>(line),
+                            fmt::format("brackets or parts of a key go deeper than {}; is it a catalogue?", deepest)});
+        return parsed;
+    }
     toml::table document;
     try {
         document = toml::parse(text);

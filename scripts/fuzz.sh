@@ -29,7 +29,7 @@ run_one() {
   # TBB and other uninstrumented libraries keep memory until the end.
   export LSAN_OPTIONS=suppressions=$PWD/cmake/lsan.supp:print_suppressions=0
   MIMIK_FUZZ_SEEDS=$corpus "$program" || { echo "fuzz.sh: $target: the seeds could not be written" >&2; return 1; }
-  if "$program" "$corpus" -seed="$seed" -max_total_time="$seconds" -max_len=65536 -timeout=10 -malloc_limit_mb=512 -rss_limit_mb=2048 \
+  if "$program" "$corpus" -seed="$seed" -max_total_time="$seconds" -max_len=262144 -timeout=10 -malloc_limit_mb=512 -rss_limit_mb=2048 \
     -artifact_prefix="build/fuzz/found/$target-" -print_final_stats=1 >"$log" 2>&1; then
     echo "$target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, $(ls "$corpus" | wc -l) kept, nothing found"
   else

@@ -323,6 +323,29 @@ TEST(CatalogueLinter, a_file_full_of_faults_costs_neither_memory_nor_patience) {
         100U);
 }
 
+std::string many(const std::string& part, std::size_t count) {
+    std::string text;
+    for (std::size_t k = 0; k < count; ++k) text += part;
+    return text;
+}
+
+TEST(CatalogueLinter, what_nests_too_deep_for_the_stack_is_an_error_at_its_line) {
+    constexpr std::size_t deep = 200'000;
+    const auto parts = many("a.", deep) + "a";
+    // Quotes that end early or late hide nothing: four of them end a text of three.
+    for (const auto& line : {parts + " = 1", "[" + parts + "]", "[[" + parts + "]]", "x = { " + parts + " = 1 }",
+                             many("\"a\" . ", deep) + "'b' = 1", "a = " + many("[", deep), "a = " + many("{a=", deep),
+                             "x = { y = '''b'''', " + parts + " = 1 }", "x = { y = \"\", " + parts + " = 1 }"})
+        EXPECT_THAT(only_finding("schema = 1\n# a.b.c\n" + line + "\n", 3), HasSubstr("deeper than 32"))
+            << line.substr(0, 30);
+}
+
+TEST(CatalogueLinter, dots_and_brackets_in_texts_and_comments_are_not_depth) {
+    const auto dots = many(".", 100), brackets = many("[", 100);
+    const auto point = "  { name = \"x" + dots + brackets + "\\\"\", kind = \"muscle\", at = { nose_wing = 1.0 } }, # ";
+    EXPECT_THAT(lint_catalogue(catalogue_with(point + dots + brackets)), IsEmpty());
+}
+
 TEST(CatalogueReader, refuses_a_faulty_file_by_name_and_line) {
     try {
         (void)parse_catalogue(catalogue_with(R"(  { name = "x", kind = "bone", at = { nose_wing = 1.0 } },)"),

@@ -53,7 +53,14 @@ std::vector<std::string> seeds() {
         "points = [{ name = \"corner\", kind = \"muscle\", at = { mouth_corner = 1.0 } },\n"
         "  { name = \"fold\", kind = \"wrinkle\", at = { mouth_corner = 0.5, nose_wing = 0.5 }, offset = [0.05, 0.0] "
         "}]\n";
-    return {"schema = 1\n" + unit,
+    // Longer than a fuzzer gets by itself: a key of many parts, brackets in brackets.
+    std::string parts = "a", brackets = "a = ";
+    for (int k = 0; k < 50'000; ++k) parts += ".a";
+    brackets.append(50'000, '[');
+    return {parts + " = 1\n",
+            "[" + parts + "]\n",
+            brackets,
+            "schema = 1\n" + unit,
             "schema = 1\n[sampling]\ncoverage_spacing = 0.1\nanchor_margin = 0.2\n" + unit +
                 "[[emotion]]\nname = \"happy\"\nunits = [12]\n",
             "schema = 1\n[[au]]\nnumber = 1e3\nat = {}\npoints = [{ at = { nowhere = nan } }]\n"};
