@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -38,17 +39,18 @@ bool next_line(std::istream& in, std::string& line, const std::string& file) {
     return true;
 }
 
-fs::path temporary_file() {
+/// A file without a name from the start: whatever ends the program, nothing of it is left.
+int nameless_file() {
     auto pattern = (fs::temp_directory_path() / "mimik-cases-XXXXXX").string();
-    const int descriptor = ::mkstemp(pattern.data());
+    const int descriptor = ::mkostemp(pattern.data(), O_CLOEXEC);
     if (descriptor < 0) throw InputError(fmt::format("{}: no temporary file can be made there", pattern));
-    ::close(descriptor);
-    return pattern;
+    ::unlink(pattern.c_str());
+    return descriptor;
 }
 
 }  // namespace
 
-CaseStore::CaseStore() : written_(temporary_file()) {
+CaseStore::CaseStore() : nameless_(nameless_file()), written_(fmt::format("/proc/self/fd/{}", nameless_)) {
     out_.open(written_, std::ios::binary | std::ios::trunc);
     out_ << case_row_header() << '\n';
 }
@@ -63,7 +65,10 @@ CaseStore::CaseStore(fs::path file) : file_(std::move(file)), written_(file_.str
 CaseStore::~CaseStore() {
     out_.close();
     std::error_code ignored;
-    if (!written_.empty()) fs::remove(written_, ignored);
+    if (nameless_ >= 0)
+        ::close(nameless_);
+    else if (!written_.empty())
+        fs::remove(written_, ignored);
 }
 
 void CaseStore::append(const std::string& unit, std::span<const CaseRow> rows) {

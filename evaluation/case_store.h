@@ -18,7 +18,7 @@ namespace mimik::evaluation {
 /// cut short or damaged is noticed and the units before the fault still count.
 class CaseStore {
 public:
-    /// In a temporary file that nobody sees and that goes with the store.
+    /// In a temporary file without a name, which goes with the store, or with the program.
     CaseStore();
     /// In `file`, begun anew. Until finish() it is called `file`.part. @throws InputError if it cannot be written.
     explicit CaseStore(std::filesystem::path file);
@@ -39,6 +39,7 @@ public:
 
 private:
     std::filesystem::path file_;     // empty: temporary
+    int nameless_ = -1;              // the temporary file's descriptor
     std::filesystem::path written_;  // where the rows are until finish()
     std::ofstream out_;
     std::set<std::string> units_;
