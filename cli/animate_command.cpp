@@ -12,7 +12,9 @@
 #include "animation/face_export.h"
 #include "base/errors.h"
 #include "cli/command.h"
+#include "cli/error_report.h"
 #include "cli/method_options.h"
+#include "cli/notes.h"
 #include "cli/regions_file.h"
 #include "cli/subject_names.h"
 #include "io/json_values.h"
@@ -36,7 +38,7 @@ struct Arguments {
 modeling::ExpressionModel read_model(const preprocessing::Workspace& workspace, const std::string& file,
                                      const std::string& target, const modeling::ModelProvenance& here,
                                      std::vector<std::string>& remarks) {
-    auto model = modeling::read_expression_model(file);
+    auto model = naming(file, [&] { return modeling::read_expression_model(file); });
     if (model.provenance)
         if (const auto other = modeling::differences(*model.provenance, here); !other.empty())
             remarks.push_back(fmt::format("{}: made otherwise than this animation: {}", file, fmt::join(other, "; ")));
@@ -193,22 +195,20 @@ int run(Arguments& arguments) {
     if (arguments.common.json) {
         print_json(arguments, neutral, chosen, extent);
     } else {
-        if (!arguments.common.quiet)
-            for (const auto& remark : remarks) std::cerr << "note: " << remark << '\n';
+        if (!arguments.common.quiet) say_notes(remarks);
         std::vector<std::string> asked = arguments.action_units;
         asked.insert(asked.end(), arguments.model_files.begin(), arguments.model_files.end());
         std::cout << fmt::format("{}: {} from {} on {}, up to {:.1f} mm\n", arguments.output, fmt::join(asked, " + "),
                                  source_words(arguments), neutral.id.name(), extent.largest_displacement_mm);
     }
-    for (const auto& failure : chosen.failures) std::cerr << failure << '\n';
+    say_failures(chosen.failures);
     return chosen.failures.empty() ? exit_done : exit_done_with_failures;
 }
 
 }  // namespace
 
 void add_animate_command(CLI::App& app, int& exit_code) {
-    auto* command =
-        app.add_subcommand("animate", "Put expressions of one subject, or of the mean of all, on a neutral face");
+    auto* command = app.add_subcommand("animate", "Put expressions of one subject, or of the mean, on a neutral face");
     auto arguments = std::make_shared<Arguments>();
     command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command
@@ -217,7 +217,7 @@ void add_animate_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--target", arguments->target, "Subject whose first neutral face is animated")->required();
     command
-        ->add_option("--au", arguments->action_units,
+        ->add_option("--au,--expression", arguments->action_units,
                      "AU or emotion, side and magnitude: 12, 12:0.5, AU4_L, HAPPY:0.8; repeat or 4,12")
         ->delimiter(',');
     command->add_option("--model", arguments->model_files,
@@ -231,7 +231,6 @@ void add_animate_command(CLI::App& app, int& exit_code) {
         ->add_option(
             "--regions", arguments->regions,
             "Label file for --hold (default: average/regions.csv in the workspace if it is there, else as drawn)")
-        ->check(CLI::ExistingFile)
         ->needs(hold);
     command->add_option("--frame", arguments->frame, "Millimetres of the target's own scan, or of the average face")
         ->check(CLI::IsMember({"scanner", "average"}))

@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "base/file.h"
 #include "cli/command.h"
+#include "cli/terminal.h"
 #include "facs/facs_catalogue.h"
 #include "io/json_values.h"
 
@@ -110,7 +112,8 @@ int run(const Request& request) {
     const std::string name = own ? request.file : "built-in catalogue";
     const std::string text = own ? base::read_text(request.file, 1 << 22) : std::string(facs::builtin_catalogue_text());
     if (request.text) {
-        std::cout << text;
+        // To a file as it is; a terminal is spared its control characters.
+        (isatty(STDOUT_FILENO) != 0 ? std::cout : raw_output()) << text;
         return exit_done;
     }
     if (request.lint) return lint(request, text, name);
@@ -132,8 +135,7 @@ int run(const Request& request) {
 }  // namespace
 
 void add_catalogue_command(CLI::App& app, int& exit_code) {
-    auto* command =
-        app.add_subcommand("catalogue", "List the action units of the FACS catalogue, or check a catalogue file");
+    auto* command = app.add_subcommand("catalogue", "List the action units of the FACS catalogue, or check another");
     const auto request = std::make_shared<Request>();
     add_common_options(*command, request->common);
     command->add_option("FILE", request->file, "Catalogue file (TOML); without it, the one that Mimik ships");

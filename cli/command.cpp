@@ -4,7 +4,9 @@
 #include <chrono>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <mutex>
+#include <new>
 #include <set>
 #include <thread>
 
@@ -15,6 +17,10 @@
 #include "base/output_folder.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "cli/error_report.h"
+#include "cli/help_pages.h"
+#include "cli/option_faults.h"
+#include "cli/terminal.h"
 
 namespace mimik::cli {
 namespace {
@@ -28,11 +34,16 @@ int working_threads() {
 }
 
 void add_common_options(CLI::App& command, Common& common) {
-    command.set_version_flag("--version", MIMIK_VERSION);
-    command.add_flag("--json", common.json, "Print the result as one JSON document");
+    command.set_version_flag("-V,--version", MIMIK_VERSION, "Print the version and stop");
+    command.add_flag("--json", common.json, "Print the result as one JSON document, an error too");
     command.add_flag("--quiet", common.quiet, "No progress and no remarks");
-    command.add_option("--threads", common.threads, "Threads to use; 0 = one per core")->check(CLI::Range(0, 1024));
-    command.parse_complete_callback([&common] { base::set_thread_count(common.threads); });
+    command.add_option("--threads", common.threads, "Threads to use; 0 = one per core")->capture_default_str();
+    command.parse_complete_callback([&common] {
+        constexpr int most = 1024;
+        if (common.threads < 0 || common.threads > most)
+            throw InputError(fmt::format("--threads is {}; give 0 to {}", common.threads, most));
+        base::set_thread_count(common.threads);
+    });
 }
 
 void check_by_option(const OptionOfField& options, const std::function<void()>& check) {
@@ -84,46 +95,88 @@ void check_output_folder(const std::filesystem::path& folder, bool dry_run) {
 }
 
 void add_seed_option(CLI::App& command, std::uint64_t& seed) {
-    command.add_option("--seed", seed, "Same seed, same result")
-        ->check(CLI::Validator(
-            [](const std::string& text) {
-                // Read as a number without a sign, -1 would be the largest there is.
-                return text.starts_with('-') ? fmt::format("the seed is {}; give a whole number of 0 or more", text)
-                                             : std::string();
-            },
-            "", "seed"))
-        ->capture_default_str();
+    command.add_option("--seed", seed, "Same seed, same result")->capture_default_str();
 }
 
-int run(CLI::App& app, int argc, char** argv, const int& exit_code) {
-    const auto report = [&](const std::exception& e, int code) {
-        std::cerr << app.get_name() << ": " << e.what() << '\n';
-        return code;
-    };
-    // A result that nobody gets is none: on a full disk the streams fail in silence.
-    const auto after_output = [&](int code) {
-        std::cout.flush();
-        if (std::cout) return code;
-        std::cerr << app.get_name() << ": standard output takes no more (disk full, or closed); nothing can be said\n";
-        return static_cast<int>(exit_bad_input);
-    };
+namespace {
+
+std::vector<std::string> words_of_command_line;
+
+/// The message, on standard error and, with --json, as the one document on standard output.
+int report(const CLI::App& program, const std::string& message, int code) {
+    const auto& words = words_of_command_line;
+    if (asks_for_json(words)) std::cout << error_json(message, code, words) << std::flush;
+    say_error(program.get_name(), message);
+    return code;
+}
+
+/// A result that nobody gets is none: on a full disk the streams fail in silence.
+int after_output(const CLI::App& program, int code) {
+    std::cout.flush();
+    if (std::cout && raw_output().flush()) return code;
+    // Who reads a few lines and goes, as `head` does, knows it.
+    if (!output_reader_has_ended())
+        say_error(program.get_name(), "standard output takes no more (disk full, or closed); nothing can be said");
+    return exit_bad_input;
+}
+
+void parse(CLI::App& program, const std::vector<std::string>& typed) {
+    make_strict(program);
+    auto words = plain_words(typed);
+    if (const auto fault = fault_of_names(program, words); !fault.empty()) throw InputError(fault);
     try {
-        app.parse(argc, argv);
-        return after_output(exit_code);
+        program.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them off the end
+    } catch (const CLI::CallForHelp&) {
+        const auto* called = called_command(program, words);
+        print_help(called ? *called : program);
+    } catch (const CLI::CallForVersion&) {
+        std::cout << MIMIK_VERSION << '\n';
     } catch (const CLI::ParseError& e) {
-        return after_output(app.exit(e) == 0 ? exit_done : exit_bad_input);
-    } catch (const NumericalError& e) {
-        return report(e, exit_no_answer);
-    } catch (const std::exception& e) {  // InputError; or the system refused a file, memory, a thread
-        return report(e, exit_bad_input);
+        throw InputError(fault_of_parser(program, words, e));
     }
 }
+
+}  // namespace
+
+const std::vector<std::string>& command_line() { return words_of_command_line; }
+
+void print_help(const CLI::App& command) {
+    // Our own text alone, and our own control codes.
+    raw_output() << help_text(page_of(command, name_of(command)), shows_colours(STDOUT_FILENO));
+}
+
+int run(CLI::App& program, int argc, char** argv, const int& exit_code) {
+    words_of_command_line.assign(argv + std::min(argc, 1), argv + argc);
+    try {
+        parse(program, words_of_command_line);
+        return after_output(program, exit_code);
+    } catch (const NumericalError& e) {
+        return report(program, e.what(), exit_no_answer);
+    } catch (const std::bad_alloc&) {
+        return report(program, "there is not enough memory for this input; give a smaller one", exit_bad_input);
+    } catch (const std::exception& e) {  // InputError; or the system refused a file, a thread
+        return report(program, e.what(), exit_bad_input);
+    }
+}
+
+namespace {
+
+/// "0:42", "1:05:00"
+std::string clock(double seconds) {
+    const auto whole = static_cast<long>(seconds + 0.5);
+    constexpr long minute = 60, hour = 3600;
+    if (whole < hour) return fmt::format("{}:{:02}", whole / minute, whole % minute);
+    return fmt::format("{}:{:02}:{:02}", whole / hour, whole % hour / minute, whole % minute);
+}
+
+}  // namespace
 
 Progress::Progress(const Common& common, std::string what, std::size_t total)
     : what_(std::move(what)),
       total_(total),
       shown_(!common.quiet && !common.json),
-      terminal_(isatty(STDERR_FILENO) != 0) {}
+      terminal_(isatty(STDERR_FILENO) != 0),
+      begun_s_(now_s()) {}
 
 void Progress::advance(const std::string& label) {
     const std::scoped_lock lock(progress_mutex);
@@ -133,18 +186,21 @@ void Progress::advance(const std::string& label) {
     const double now = now_s();
     if (done_ != total_ && now - last_shown_s_ < (terminal_ ? 0.1 : 10.0)) return;
     last_shown_s_ = now;
+    const auto shown = one_line(label);
     if (terminal_) {
-        const std::size_t width = 30, filled = total_ ? width * done_ / total_ : width;
-        std::cerr << fmt::format("\r{} [{}{}] {}/{} {:<24.24}", what_, std::string(filled, '#'),
-                                 std::string(width - filled, ' '), done_, total_, label)
-                  << std::flush;
+        const std::size_t width = 30, filled = total_ ? std::min(width, width * done_ / total_) : width;
+        const auto left = static_cast<double>(total_ - std::min(done_, total_));
+        const auto remaining = (now - begun_s_) / static_cast<double>(done_) * left;
+        raw_error() << fmt::format("\r{} [{}{}] {}/{} {} left {:<24.24}", what_, std::string(filled, '#'),
+                                   std::string(width - filled, ' '), done_, total_, clock(remaining), shown)
+                    << std::flush;
     } else {
-        std::cerr << fmt::format("{}: {}/{} {}\n", what_, done_, total_, label);
+        std::cerr << fmt::format("{}: {}/{} {}\n", what_, done_, total_, shown);
     }
 }
 
 Progress::~Progress() {
-    if (shown_ && terminal_ && done_ > 0) std::cerr << '\n';
+    if (shown_ && terminal_ && done_ > 0) raw_error() << std::endl;
 }
 
 }  // namespace mimik::cli

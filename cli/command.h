@@ -22,7 +22,7 @@ struct Common {
 /// for.
 [[nodiscard]] int working_threads();
 
-/// Adds --version, --json, --quiet, --threads to a command; the thread count is applied before its callback.
+/// Adds -V, --version, --json, --quiet, --threads to a command; the thread count is applied before its callback.
 void add_common_options(CLI::App& command, Common& common);
 
 /// Which option sets a field of an Options struct.
@@ -53,7 +53,13 @@ enum ExitCode : int { exit_done = 0, exit_done_with_failures = 1, exit_bad_input
 
 /// Parses and runs the command, prints errors with the program's name before them, and gives what main returns:
 /// `exit_code` as the command left it, or the code of the error.
-[[nodiscard]] int run(CLI::App& app, int argc, char** argv, const int& exit_code);
+[[nodiscard]] int run(CLI::App& program, int argc, char** argv, const int& exit_code);
+
+/// The words behind the program's name, as they were typed.
+[[nodiscard]] const std::vector<std::string>& command_line();
+
+/// What --help prints.
+void print_help(const CLI::App& command);
 
 /// Each command lives in a file of its own (<name>_command.cpp) and is listed here and in main.cpp. The function adds
 /// the subcommand; when it is chosen, its callback stores what main returns in `exit_code`.
@@ -69,8 +75,11 @@ void add_warp_command(CLI::App& app, int& exit_code);
 void add_distance_command(CLI::App& app, int& exit_code);
 void add_figure_command(CLI::App& app, int& exit_code);
 void add_catalogue_command(CLI::App& app, int& exit_code);
+void add_help_command(CLI::App& app, int& exit_code);
+void add_version_command(CLI::App& app, int& exit_code);
 
-/// A bar on a terminal (standard error), a line now and then otherwise, nothing when quiet or JSON.
+/// A bar with the remaining time on a terminal (standard error), a line now and then otherwise, nothing when quiet or
+/// JSON.
 class Progress {
 public:
     Progress(const Common& common, std::string what, std::size_t total);
@@ -81,7 +90,7 @@ private:
     std::string what_;
     std::size_t total_ = 0, done_ = 0;
     bool shown_ = false, terminal_ = false;
-    double last_shown_s_ = 0;
+    double begun_s_ = 0, last_shown_s_ = 0;
 };
 
 }  // namespace mimik::cli

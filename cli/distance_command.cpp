@@ -11,6 +11,8 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/error_report.h"
+#include "cli/terminal.h"
 #include "database/hidden_subjects.h"
 #include "evaluation/surface_distance.h"
 #include "geometry/vertex_attributes.h"
@@ -37,8 +39,9 @@ geometry::Mesh read_test(const std::filesystem::path& file) {
 }
 
 nlohmann::ordered_json json_of(const DistanceSummary& s) {
-    return {{"n", s.n},        {"mean", s.mean_mm}, {"rms", s.rms_mm}, {"median", s.median_mm},
-            {"p95", s.p95_mm}, {"max", s.max_mm}};
+    return {
+        {"n", s.n},        {"mean", s.mean_mm},           {"rms", s.rms_mm}, {"median", s.median_mm}, {"p95", s.p95_mm},
+        {"max", s.max_mm}, {"border_hits", s.border_hits}};
 }
 
 std::string line_of(const char* side, const DistanceSummary& s) {
@@ -73,20 +76,19 @@ void run(const Request& request) {
         refuse_range_scan(file);
         database::refuse_hidden_file(file);
     }
-    auto test = read_test(request.test);
-    const auto reference = io::read_mesh(request.reference);
+    auto test = naming(request.test, [&] { return read_test(request.test); });
+    const auto reference = naming(request.reference, [&] { return io::read_mesh(request.reference); });
     if (reference.faces.size() == 0)
         throw InputError(
             fmt::format("{}: the reference has {} vertices but no face; distances need a surface: give a mesh",
                         request.reference.string(), reference.vertices_mm.size()));
-    const auto distance = evaluation::surface_distance(test, reference);
+    const auto distance = naming(request.test, [&] { return evaluation::surface_distance(test, reference); });
     if (const auto loose = test.faces.size() > 0 ? vertices_without_face(test) : 0; loose > 0 && !request.common.quiet)
-        std::cerr << fmt::format("note: {}: {} vertices belong to no face and count all the same\n",
-                                 request.test.string(), loose);
+        say_note(fmt::format("{}: {} vertices belong to no face and count all the same", request.test.string(), loose));
     if (!request.output.empty()) write_distances(request.output, std::move(test), distance.test_to_reference);
     if (request.common.json) {
-        nlohmann::ordered_json document = {{"units", "mm"},
-                                           {"test_to_reference", json_of(distance.test_to_reference.summary)}};
+        nlohmann::ordered_json document = {
+            {"schema", 1}, {"units", "mm"}, {"test_to_reference", json_of(distance.test_to_reference.summary)}};
         document["reference_to_test"] =
             distance.reference_to_test ? json_of(distance.reference_to_test->summary) : nlohmann::ordered_json(nullptr);
         std::cout << io::json_text(document);

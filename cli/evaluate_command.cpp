@@ -66,12 +66,12 @@ int run(Arguments& arguments) {
                                             [&](const std::string& what) { progress.advance(what); });
     }
     const auto markdown = report::to_markdown(report), json = report::to_json(report);
-    std::cout << (arguments.common.json ? json : markdown) << std::flush;
     if (!folder.empty()) {
         base::write_atomically(folder / "scores.md", markdown);
         base::write_atomically(folder / "scores.csv", report::to_csv(report));
         base::write_atomically(folder / "scores.json", json);
     }
+    std::cout << (arguments.common.json ? json : markdown) << std::flush;
     if (!arguments.common.json && !arguments.common.quiet) std::cerr << fmt::format("{:.1f} s\n", report.seconds);
     return report.failures.empty() ? exit_done : exit_done_with_failures;
 }
@@ -87,8 +87,7 @@ std::string method_names() {
 }  // namespace
 
 void add_evaluate_command(CLI::App& app, int& exit_code) {
-    auto* command =
-        app.add_subcommand("evaluate", "Score methods on every ordered pair of subjects beside doing nothing");
+    auto* command = app.add_subcommand("evaluate", "Score methods on every ordered pair of subjects");
     auto arguments = std::make_shared<Arguments>();
     auto& options = arguments->options;
     command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
@@ -102,8 +101,8 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--max-sources", options.max_sources, "Sources per target; 0 = all other subjects")
         ->capture_default_str();
-    command->add_option("--catalogue", arguments->catalogue_file, "Another FACS catalogue (TOML) than the built-in one")
-        ->check(CLI::ExistingFile);
+    command->add_option("--catalogue", arguments->catalogue_file,
+                        "Another FACS catalogue (TOML) than the built-in one");
     command->add_flag("--no-reference", arguments->no_reference,
                       "Leave out the true-field reference of synthetic databases");
     command->add_flag("--no-whole-face", arguments->no_whole_face, "Score the active zone only (faster)");

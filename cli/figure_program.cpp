@@ -12,6 +12,9 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/error_report.h"
+#include "cli/figure_options.h"
+#include "cli/terminal.h"
 #include "io/json_values.h"
 #include "report/figure_description.h"
 
@@ -19,15 +22,6 @@ namespace mimik::cli {
 namespace {
 
 using report::PanelDescription;
-
-/// What is given once for each panel, or once for all of them.
-struct PerPanel {
-    std::vector<std::string> meshes, captions, landmarks, controls, arrows, textures, views;
-    std::string unit = "mm";
-    bool textured = false;
-    std::string scalar, label, colour_map = "sequential";
-    std::vector<double> range;
-};
 
 /// The value of panel p of `count`; "-" and nothing at all are no value.
 std::string value_for(const std::vector<std::string>& values, std::size_t p, std::size_t count, const char* option) {
@@ -85,7 +79,8 @@ void draw(const report::FigureDescription& description, const std::string& outpu
     const auto image = figures::render(figure);
     io::write_png(output, image);
     if (common.json)
-        std::cout << io::json_text(nlohmann::ordered_json{{"output", output},
+        std::cout << io::json_text(nlohmann::ordered_json{{"schema", 1},
+                                                          {"output", output},
                                                           {"width_px", image.width},
                                                           {"height_px", image.height},
                                                           {"panels", figure.panels.size()},
@@ -96,65 +91,24 @@ void draw(const report::FigureDescription& description, const std::string& outpu
 }
 
 int run_figure(int argc, char** argv) {
+    prepare_standard_streams();
     CLI::App app{"Draws faces side by side, without needing a display.", "mimik-figure"};
-    Common common;
-    report::FigureDescription description;
-    figures::Figure& page = description.page;
-    PerPanel given;
-    std::string output, file, size, framing = "own";
-
-    app.add_option("panel", given.meshes, "Meshes: PLY, OBJ, STL, PCD, VTP or .bnt; '-' leaves a gap");
-    app.add_option("-o,--output", output, "The picture (.png)")->required();
-    app.add_option("--description", file, "A JSON file that describes the whole figure");
-    // What a description says itself.
-    const std::vector<CLI::Option*> described = {
-        app.add_option("--caption", given.captions, "Text beneath a panel; repeat in the order of the panels")
-            ->allow_extra_args(false),
-        app.add_option("--landmarks", given.landmarks, "Landmark file, in blue; once, or once a panel")
-            ->allow_extra_args(false),
-        app.add_option("--controls", given.controls, "CSV name,x,y,z,kind: muscle (red) and wrinkle (orange) controls")
-            ->allow_extra_args(false),
-        app.add_option("--arrows", given.arrows, "CSV x,y,z,to_x,to_y,to_z")->allow_extra_args(false),
-        app.add_option("--texture", given.textures, "PNG or JPEG on the face; once, or once a panel")
-            ->allow_extra_args(false),
-        app.add_flag("--textured", given.textured, "Use the image that each mesh file names"),
-        app.add_option("--unit", given.unit, "Of the files: mm, cm or m")->capture_default_str(),
-        app.add_option("--view", given.views,
-                       "front, left, right, three-quarter-left, three-quarter-right; once, or once a panel")
-            ->allow_extra_args(false),
-        app.add_option("--scalar", given.scalar, "Colour by this attribute of the meshes"),
-        app.add_option("--range", given.range, "Values at the ends of the colours")->expected(2),
-        app.add_option("--colour-map", given.colour_map, "sequential or diverging")->capture_default_str(),
-        app.add_option("--label", given.label, "Text of the colour bar, with the unit"),
-        app.add_option("--title", page.title, "Text above the panels"),
-        app.add_option("--columns", page.columns, "Panels in a row; 0 = chosen")->capture_default_str(),
-        app.add_option("--size", size,
-                       fmt::format("Of a panel in pixels [{}x{}]", page.panel_width_px, page.panel_height_px)),
-        app.add_option("--font-size", page.font_size_px, "Of captions, in pixels")->capture_default_str(),
-        app.add_option("--framing", framing, "own: each panel centred on its face; common: all on one point")
-            ->capture_default_str(),
-        app.add_option("--height-mm", page.height_mm, "Height of a panel in mm; without: every face whole"),
-        app.add_option("--scale-bar-mm", page.scale_bar_mm, "Length of a scale bar below the first panel; 0 = none"),
-        app.add_flag("--legend", page.legend, "Name the markers beneath the panels"),
-        app.add_option("--supersampling", page.supersampling, "1 to 4: smoother edges for print, slower")
-            ->capture_default_str()};
-    add_common_options(app, common);
-
+    FigureArguments arguments;
+    add_figure_options(app, arguments);
     app.callback([&] {
-        if (file.empty()) {
-            if (given.meshes.empty()) throw InputError("no mesh is given; name one for each panel, or --description");
-            if (!given.range.empty() && given.scalar.empty()) throw InputError("--range needs --scalar");
-            if (!size.empty()) parse_size(size, page);
-            page.framing = figures::parse_framing(framing);
-            description.panels = panels_of(given);
+        check_figure_options(arguments);
+        auto& page = arguments.description.page;
+        if (arguments.file.empty()) {
+            if (!arguments.size.empty()) parse_size(arguments.size, page);
+            page.framing = figures::parse_framing(arguments.framing);
+            arguments.description.panels = panels_of(arguments.given);
         } else {
-            if (!given.meshes.empty()) throw InputError("give meshes or --description, not both");
-            for (const auto* option : described)
-                if (option->count() > 0)
-                    throw InputError(option->get_name() + " and --description exclude one another: say it in " + file);
-            description = report::read_figure_description(file);
+            arguments.description =
+                naming(arguments.file, [&] { return report::read_figure_description(arguments.file); });
         }
-        draw(description, output, common);
+        const auto& inputs = arguments.file.empty() ? arguments.given.meshes : std::vector{arguments.file};
+        naming(inputs.size() == 1 ? inputs.front() : std::string(),
+               [&] { draw(arguments.description, arguments.output, arguments.common); });
     });
     return run(app, argc, argv, exit_done);
 }

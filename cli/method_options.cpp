@@ -56,8 +56,7 @@ void MethodArguments::add_to(CLI::App& command) {
     command.add_option("--method", name, "thesis (as printed) or default (what measured best)")
         ->check(CLI::IsMember(sparse_method_names()))
         ->capture_default_str();
-    command.add_option("--catalogue", catalogue_file, "Another FACS catalogue (TOML) than the built-in one")
-        ->check(CLI::ExistingFile);
+    command.add_option("--catalogue", catalogue_file, "Another FACS catalogue (TOML) than the built-in one");
     command
         .add_option("--kernel", kernel, "Spline kernel; another than the method's own passes through every landmark")
         ->check(CLI::IsMember({"r", "r2logr"}));

@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/method_options.h"
+#include "cli/notes.h"
 #include "cli/subject_names.h"
 #include "io/json_values.h"
 #include "modeling/source_expression.h"
@@ -68,15 +69,14 @@ int run(Arguments& arguments) {
         std::cout << io::json_text(nlohmann::json{{"schema", 1}, {"models", written}, {"failures", failures}});
     else
         std::cout << fmt::format("{} models in {}\n", written.size(), folder.string());
-    for (const auto& failure : failures) std::cerr << failure << '\n';
+    say_failures(failures);
     return failures.empty() ? exit_done : exit_done_with_failures;
 }
 
 }  // namespace
 
 void add_model_command(CLI::App& app, int& exit_code) {
-    auto* command =
-        app.add_subcommand("model", "Measure expressions as control points and displacements, one file each");
+    auto* command = app.add_subcommand("model", "Measure expressions as control points, a small file each");
     auto arguments = std::make_shared<Arguments>();
     arguments->expressions = {"1", "2", "4", "12", "14", "15", "17", "20"};
     command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();

@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/figure_start.h"
 #include "cli/method_options.h"
+#include "cli/notes.h"
 #include "cli/subject_names.h"
 #include "io/json_values.h"
 #include "report/comparison_panels.h"
@@ -86,7 +87,8 @@ nlohmann::json to_json(const Planned& planned, const std::vector<facs::Expressio
                           {"zone_nothing_mm", person.zone_nothing_mm},
                           {"explained", person.explained() ? nlohmann::json(*person.explained()) : nlohmann::json()},
                           {"face_mm", person.face_mm},
-                          {"face_nothing_mm", person.face_nothing_mm}});
+                          {"face_nothing_mm", person.face_nothing_mm},
+                          {"border_hits", person.border_hits}});
     return {{"picture", picture.string()},
             {"description", figure.description.string()},
             {"panels", figure.panels},
@@ -124,9 +126,7 @@ int say_plan(const Arguments& arguments, const std::vector<Planned>& planned) {
 }
 
 /// What was made, and how near the faces come.
-void tell(const Arguments& arguments, const std::filesystem::path& picture, const ComparisonFigure& figure) {
-    if (!arguments.common.quiet)
-        for (const auto& remark : figure.remarks) std::cerr << "note: " << remark << '\n';
+void tell(const std::filesystem::path& picture, const ComparisonFigure& figure) {
     std::cout << fmt::format("{}: {} panels", picture.string(), figure.panels);
     for (const auto& person : figure.people)
         std::cout << fmt::format("; {} {:.2f} mm from the real scan, doing nothing {:.2f} mm", person.subject,
@@ -147,7 +147,7 @@ int run(Arguments& arguments) {
     if (arguments.dry_run) return say_plan(arguments, planned);
 
     auto figures = nlohmann::json::array();
-    std::vector<std::string> failures;
+    std::vector<std::string> failures, notes;
     Progress progress(arguments.common, "panels", planned.size());
     for (const auto& one : planned) {
         auto picture = folder / one.name;
@@ -164,7 +164,8 @@ int run(Arguments& arguments) {
                                 fault, (folder / one.name).string(), figure.description.string()));
             figures.push_back(to_json(one, arguments.series.empty() ? std::vector{one.request.expression} : expressions,
                                       picture, figure));
-            if (!arguments.common.json) tell(arguments, picture, figure);
+            if (!arguments.common.json) tell(picture, figure);
+            notes.insert(notes.end(), figure.remarks.begin(), figure.remarks.end());
             failures.insert(failures.end(), figure.failures.begin(), figure.failures.end());
         } catch (const std::exception& e) {
             failures.push_back(fmt::format("{}: {}", one.name, e.what()));  // the others may well be drawn
@@ -174,15 +175,15 @@ int run(Arguments& arguments) {
     if (arguments.common.json)
         std::cout << io::json_text(
             nlohmann::json{{"schema", 1}, {"dry_run", false}, {"figures", figures}, {"failures", failures}});
-    for (const auto& failure : failures) std::cerr << failure << '\n';
+    if (!arguments.common.quiet && !arguments.common.json) say_notes(notes);
+    say_failures(failures);
     return failures.empty() ? exit_done : exit_done_with_failures;
 }
 
 }  // namespace
 
 void add_panels_command(CLI::App& app, int& exit_code) {
-    auto* command = app.add_subcommand(
-        "panels", "Figures of an expression: neutral, animated and real faces, and their distance in colour");
+    auto* command = app.add_subcommand("panels", "Draw neutral, animated and real faces, and their distance in colour");
     auto arguments = std::make_shared<Arguments>();
     auto& request = arguments->request;
     command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
@@ -191,7 +192,7 @@ void add_panels_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--target", request.target, "Subject whose first neutral face is animated")->required();
     command
-        ->add_option("--au", arguments->action_units,
+        ->add_option("--au,--expression", arguments->action_units,
                      "AU or emotion, side and magnitude: 12, 12:0.5, 4L, HAPPY; a picture for each, repeat or 4,12")
         ->delimiter(',')
         ->required();

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -11,6 +10,8 @@
 #include "base/errors.h"
 #include "cli/command.h"
 #include "cli/figure_start.h"
+#include "cli/notes.h"
+#include "cli/terminal.h"
 #include "database/scan_database.h"
 #include "facs/facs_catalogue.h"
 #include "io/json_values.h"
@@ -52,12 +53,10 @@ report::QualitySheetReport draw_sheets(const Arguments& arguments) {
 
 /// One line for what several scans have in common.
 void print_remarks(const preprocessing::PreprocessReport& report, const std::vector<std::string>& of_database) {
-    for (const auto& remark : of_database) std::cerr << remark << '\n';
-    std::map<std::string, std::vector<std::string>> scans;
-    for (const auto& [scan, remark] : report.remarks) scans[remark].push_back(scan);
-    for (const auto& [remark, of] : scans)
-        std::cerr << fmt::format("note: {}{}: {}\n", of.front(),
-                                 of.size() > 1 ? fmt::format(" and {} more", of.size() - 1) : "", remark);
+    for (const auto& remark : grouped(of_database)) std::cerr << one_line(remark) << '\n';
+    std::vector<std::string> notes;
+    for (const auto& [scan, remark] : report.remarks) notes.push_back(fmt::format("{}: {}", scan, remark));
+    say_notes(notes);
     // Most scans of a database: no reason to look at any of them.
     if (const auto count = report.closed_lips.size(); count > 0)
         std::cerr << fmt::format("{} scan{} closed lips, both inner marks on one grid vertex: splines take the first\n",
@@ -145,12 +144,13 @@ int run(Arguments& arguments) {
         std::cout << io::json_text(document);
     } else {
         if (!arguments.common.quiet) print_remarks(report, database.remarks);
-        for (const auto& failure : report.failures) std::cerr << fmt::format("{}: {}\n", failure.scan, failure.reason);
+        for (const auto& failure : report.failures)
+            std::cerr << one_line(fmt::format("{}: {}", failure.scan, failure.reason)) << '\n';
         for (const auto& subject : report.left_out)
-            std::cerr << fmt::format("{}: no usable neutral face, so the subject was left out\n", subject);
+            std::cerr << one_line(subject) << ": no usable neutral face, so the subject was left out\n";
         std::cout << fmt::format("{} faces preprocessed, {} already up to date, {} failed; workspace {}\n",
                                  report.preprocessed, report.up_to_date, report.failures.size(), arguments.output);
-        for (const auto& failure : sheets.failures) std::cerr << failure << '\n';
+        say_failures(sheets.failures);
         if (arguments.sheets)
             std::cout << fmt::format("{} quality sheets drawn, {} already up to date; {}\n", sheets.drawn,
                                      sheets.up_to_date, (std::filesystem::path(arguments.output) / "sheets").string());
@@ -188,10 +188,8 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--trim", options.alignment.trim, "Share of the points that the alignment uses")
         ->capture_default_str();
-    command
-        ->add_option("--catalogue", arguments->catalogue_file,
-                     "Another FACS catalogue (TOML): what each AU leaves alone is what scans are aligned by")
-        ->check(CLI::ExistingFile);
+    command->add_option("--catalogue", arguments->catalogue_file,
+                        "Another FACS catalogue (TOML): what each AU leaves alone is what scans are aligned by");
     command->add_flag("--sheets", arguments->sheets, "Draw a quality sheet per subject: OUTPUT/sheets/bs003.png");
     command->add_flag("--dry-run", arguments->dry_run,
                       "Say what is up to date, what remains, its time and disk; do nothing");

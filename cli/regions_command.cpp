@@ -53,8 +53,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_regions_command(CLI::App& app, int& exit_code) {
-    auto* command =
-        app.add_subcommand("regions", "Write the regions of the average face as a label file that can be edited");
+    auto* command = app.add_subcommand("regions", "Write the regions of the average face to a file, to be edited");
     auto arguments = std::make_shared<Arguments>();
     command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command->add_option("-o,--output", arguments->output,

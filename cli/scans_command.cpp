@@ -15,6 +15,8 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/notes.h"
+#include "cli/terminal.h"
 #include "database/scan_index.h"
 #include "io/json_values.h"
 
@@ -116,7 +118,9 @@ void print_json(const ScanDatabase& database, const std::vector<const ScanEntry*
 }
 
 /// Columns as wide as their widest cell; the first is left-aligned, and the last.
-void print_table(const std::vector<std::vector<std::string>>& rows) {
+void print_table(std::vector<std::vector<std::string>> rows) {
+    for (auto& row : rows)
+        for (auto& cell : row) cell = one_line(cell);
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const auto& row : rows)
         for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
@@ -204,15 +208,15 @@ void print_findings(const std::vector<const ScanEntry*>& scans, const ScanIndexR
     for (std::size_t i = 0; i < scans.size(); ++i) {
         const auto& summary = result.summaries[i];
         if (!summary.checked && !summary.error.empty())
-            std::cout << fmt::format("\n{}: unreadable: {}\n", scans[i]->id.name(), summary.error);
+            std::cout << fmt::format("\n{}: unreadable: {}\n", one_line(scans[i]->id.name()), one_line(summary.error));
         if (notes && !summary.checked)  // the doctor says the same with a mend
             for (const auto& remark : summary.remarks)
-                std::cout << fmt::format("\n{}: {}\n", scans[i]->id.name(), remark);
+                std::cout << fmt::format("\n{}: {}\n", one_line(scans[i]->id.name()), one_line(remark));
         for (const auto& finding : summary.findings)
             if (notes || finding.severity != Severity::note)
-                std::cout << fmt::format("\n{}: {} ({}): {}\n    at   {}\n    mend {}\n", scans[i]->id.name(),
-                                         to_string(finding.severity), finding.kind, finding.what, finding.where,
-                                         finding.mend);
+                std::cout << fmt::format("\n{}: {} ({}): {}\n    at   {}\n    mend {}\n", one_line(scans[i]->id.name()),
+                                         to_string(finding.severity), finding.kind, one_line(finding.what),
+                                         one_line(finding.where), one_line(finding.mend));
     }
 }
 
@@ -256,8 +260,8 @@ int run(Request& request) {
         if (!scans.empty()) (request.list || selected ? print_scans : print_subjects)(database, scans, result);
         print_findings(scans, result, request.list || selected);
         if (!request.common.quiet) {
-            if (!result.remark.empty()) std::cerr << "catalogue: " << result.remark << '\n';
-            for (const auto& remark : database.remarks) std::cerr << remark << '\n';
+            if (!result.remark.empty()) std::cerr << "catalogue: " << one_line(result.remark) << '\n';
+            for (const auto& remark : grouped(database.remarks)) std::cerr << one_line(remark) << '\n';
         }
         if (request.index.check) std::cout << fmt::format("\n{} of {} scans have errors\n", bad, scans.size());
     }
@@ -269,8 +273,7 @@ int run(Request& request) {
 }  // namespace
 
 void add_scans_command(CLI::App& app, int& exit_code) {
-    auto* command =
-        app.add_subcommand("scans", "List the scans of a database; --check looks for what is wrong with them");
+    auto* command = app.add_subcommand("scans", "List the scans of a database; --check says what is wrong with them");
     const auto request = std::make_shared<Request>();
     add_common_options(*command, request->common);
     command->add_option("DB", request->root, "Folder with bs000, bs001, ... or with manifest.csv")->required();

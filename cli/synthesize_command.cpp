@@ -11,6 +11,7 @@
 
 #include "base/errors.h"
 #include "cli/command.h"
+#include "cli/terminal.h"
 #include "io/json_values.h"
 #include "synthesis/synthesize.h"
 
@@ -73,7 +74,7 @@ int run_synthesize(const SynthesizeArguments& arguments) {
     try {
         report = synthesis::synthesize_database(arguments.out, *model, options);
     } catch (const Stopped&) {
-        std::cerr << fmt::format("mimik: stopped; nothing was left at {}\n", arguments.out);
+        say_error("mimik", fmt::format("stopped; nothing was left at {}", arguments.out));
         return 128 + stop_signal;  // as shells count
     }
     if (arguments.common.json) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/error_report.h"
 #include "cli/method_options.h"
 #include "database/hidden_subjects.h"
 #include "io/json_values.h"
@@ -27,8 +28,10 @@ int run_warp(const WarpArguments& arguments) {
     refuse_range_scan(arguments.input);
     auto options = arguments.options;
     options.kernel = kernel_by_name(arguments.kernel);
-    const auto report = io::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, options,
-                                      [](const std::filesystem::path& image) { database::refuse_hidden_file(image); });
+    const auto report = naming_any({arguments.from, arguments.to, arguments.input, arguments.output}, [&] {
+        return io::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, options,
+                             [](const std::filesystem::path& image) { database::refuse_hidden_file(image); });
+    });
     if (arguments.common.json) {
         std::cout << io::json_text(nlohmann::json{{"schema", 1},
                                                   {"output", arguments.output.string()},
@@ -49,7 +52,7 @@ int run_warp(const WarpArguments& arguments) {
 
 void add_warp_command(CLI::App& app, int& exit_code) {
     auto arguments = std::make_shared<WarpArguments>();
-    auto* command = app.add_subcommand("warp", "Warp a mesh or a list of points by landmarks (thin-plate spline)");
+    auto* command = app.add_subcommand("warp", "Warp a mesh or points by landmarks (thin-plate spline)");
     command->add_option("--from", arguments->from, "Landmarks on the input: CSV with name,x,y,z")->required();
     command->add_option("--to", arguments->to, "Where they go: the same names")->required();
     command->add_option("--kernel", arguments->kernel, "r, or r2logr (r^2 ln r^2)")

@@ -307,8 +307,14 @@ void compare(Person& person, const Workspace& workspace, const evaluation::Activ
     const auto still = geometry::DisplacementField::still(neutral.size());
     const auto animated = evaluation::distances_to_real_scan({*person.scored, neutral, person.animated.field});
     const auto nothing = evaluation::distances_to_real_scan({*person.scored, neutral, still});
-    person.compared = {person.neutral.id.subject, animated.zone_mm, nothing.zone_mm, animated.face_mm.value_or(0),
-                       nothing.face_mm.value_or(0)};
+    const auto measured =
+        std::count_if(neutral.measured.begin(), neutral.measured.end(), [](auto seen) { return seen != 0; });
+    person.compared = {person.neutral.id.subject,
+                       animated.zone_mm,
+                       nothing.zone_mm,
+                       animated.face_mm.value_or(0),
+                       nothing.face_mm.value_or(0),
+                       static_cast<std::size_t>(measured) - person.scored->vertices.size()};
 }
 
 void add_remarks(std::vector<std::string>& remarks, const std::vector<std::string>& more) {

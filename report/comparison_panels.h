@@ -32,6 +32,7 @@ struct ComparedPerson {
     std::string subject;
     double zone_mm = 0, zone_nothing_mm = 0;  ///< mean distance to the real scan in the zone; of doing nothing
     double face_mm = 0, face_nothing_mm = 0;  ///< the same over the whole face
+    std::size_t border_hits = 0;  ///< measured vertices whose nearest point is on the scan's border: left out of all
     [[nodiscard]] std::optional<double> explained() const;  ///< 1 - distance / distance of doing nothing
 };
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/errors.h"
+
+namespace mimik::cli {
+
+/// What --json prints of an error: schema, error, and what the message names: file, line, option (null: nothing).
+[[nodiscard]] std::string error_json(const std::string& message, int exit_code, const std::vector<std::string>& words);
+
+/// Whether --json stands among the words of a command line.
+[[nodiscard]] bool asks_for_json(const std::vector<std::string>& words);
+
+/// "file: message" with the first of the files, unless the message has one of them.
+[[nodiscard]] std::string with_file(const std::vector<std::filesystem::path>& files, std::string_view message);
+
+/// What `work` gives; whatever it throws names one of the files, the first where it names none itself.
+template <class Work>
+auto naming_any(const std::vector<std::filesystem::path>& files, const Work& work) {
+    constexpr const char* no_memory = "needs more memory than there is; give a smaller file";
+    try {
+        return work();
+    } catch (const InputError& e) {
+        throw InputError(with_file(files, e.what()));
+    } catch (const NumericalError& e) {
+        throw NumericalError(with_file(files, e.what()));
+    } catch (const std::bad_alloc&) {
+        throw InputError(with_file(files, no_memory));
+    } catch (const std::length_error&) {
+        throw InputError(with_file(files, no_memory));
+    }
+}
+template <class Work>
+auto naming(const std::filesystem::path& file, const Work& work) {
+    return naming_any({file}, work);
+}
+
+}  // namespace mimik::cli

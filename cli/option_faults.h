@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace mimik::cli {
+
+/// Numbers are read whole and strictly ("1e", "0x10" and "1,5" are none), and choices name the nearest, with the same
+/// words for every command: "--rows is '1e'; give a whole number". For a program and all its commands.
+void make_strict(CLI::App& program);
+
+/// What CLI11 would take otherwise than it is meant: "-.5" is a number.
+[[nodiscard]] std::vector<std::string> plain_words(std::vector<std::string> words);
+
+/// The command that the words call: one of the program's, or the program itself where it has none. Null: it has
+/// commands, but the first word names none of them.
+[[nodiscard]] const CLI::App* called_command(const CLI::App& program, const std::vector<std::string>& words);
+
+/// What is wrong with the command's name or the options' names, with the nearest that there is; empty: nothing. Found
+/// before anything else, since an option that is mistyped is missing, too.
+[[nodiscard]] std::string fault_of_names(const CLI::App& program, const std::vector<std::string>& words);
+
+/// What the parser found, in our words.
+[[nodiscard]] std::string fault_of_parser(const CLI::App& program, const std::vector<std::string>& words,
+                                          const CLI::ParseError& error);
+
+/// "there is no command 'distnace'; did you mean distance?"
+[[nodiscard]] std::string unknown_command(const CLI::App& program, const std::string& word);
+
+/// "mimik animate"
+[[nodiscard]] std::string name_of(const CLI::App& command);
+
+}  // namespace mimik::cli
