@@ -18,7 +18,7 @@ namespace {
 
 /// As CMake found them: {"Eigen", "3.4.0"}, ...
 const std::vector<std::pair<std::string, std::string>> libraries = {
-#include "cli_libraries.inc"
+#include "cli/libraries.inc"
 };
 
 std::string system_name() {
