@@ -260,7 +260,7 @@ int run(Request& request) {
         if (!scans.empty()) (request.list || selected ? print_scans : print_subjects)(database, scans, result);
         print_findings(scans, result, request.list || selected);
         if (!request.common.quiet) {
-            if (!result.remark.empty()) std::cerr << "catalogue: " << one_line(result.remark) << '\n';
+            if (!result.remark.empty()) std::cerr << "scan index: " << one_line(result.remark) << '\n';
             for (const auto& remark : grouped(database.remarks)) std::cerr << one_line(remark) << '\n';
         }
         if (request.index.check) std::cout << fmt::format("\n{} of {} scans have errors\n", bad, scans.size());
