@@ -38,10 +38,19 @@ evaluation::ExperimentReport smile_report() {
     report.zones = "truth";
     report.alignment = "true pose";
     report.truth = evaluation::TruthOrigin{7, "some face model", {{"identity", 0.8}}};
-    report.nothing = {"doing nothing", animation::SourceKind::none, false, {{"12", score(0)}}, 0.0, 0.0, 0.0, {}};
+    report.nothing = {
+        "doing nothing", animation::SourceKind::none, false, false, {{"12", score(0)}}, 0.0, 0.0, 0.0, {}};
     report.rows = {
-        {"default", animation::SourceKind::one_source, false, {{"12", score(0.25)}}, 0.25, 0.25, 0.25, 0.5},
-        {"true field, mean", animation::SourceKind::all_but_target, true, {{"12", score(0.5)}}, 0.5, 0.5, 0.5, {}}};
+        {"default", animation::SourceKind::one_source, false, false, {{"12", score(0.25)}}, 0.25, 0.25, 0.25, 0.5},
+        {"true field, mean",
+         animation::SourceKind::all_but_target,
+         true,
+         true,
+         {{"12", score(0.5)}},
+         0.5,
+         0.5,
+         0.5,
+         {}}};
     report.rows[1].per_expression.at("12").largest_step_mm.reset();
     return report;
 }

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "tests/support/analytic_truth.h"
 #include "tests/support/analytic_workspace_files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -22,7 +21,7 @@ void half_smile(const std::filesystem::path& work, const std::string& subject, c
     const preprocessing::Workspace workspace(work);
     const auto& catalogue = facs::builtin_catalogue();
     const auto smile =
-        modeling::model_from_workspace(workspace, catalogue, catalogue.expression("AU12"), {.subject = subject});
+        modeling::model_from_workspace(workspace, catalogue, catalogue.expression("AU12"), {subject, {}});
     const animation::WeightedExpression half[] = {{&smile, 0.5}};
     io::write_mesh(
         out, animation::animate_mesh(io::read_mesh(mesh), io::read_landmarks(landmarks), workspace.average(), half));
@@ -43,7 +42,7 @@ geometry::Mesh smile_by(const animation::Method& method, const preprocessing::Wo
 // [end]
 
 TEST(Samples, a_mesh_of_another_size_smiles_with_its_mouth_and_not_with_its_brows) {
-    const database::TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     const auto workspace = test::analytic_workspace(folder.path());
     const test::AnalyticFace face{1.05};
     const auto lines_x = test::AnalyticFace::lines(-60, 60, 2), lines_y = test::AnalyticFace::lines(-68, 76, 2);
