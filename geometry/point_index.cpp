@@ -1,9 +1,12 @@
 #include "geometry/point_index.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,7 +22,10 @@ using Slot = std::uint32_t;  // place of a point in leaf order
 
 struct Cloud {
     std::vector<Point> points;        // in leaf order, so that a leaf is one piece of memory
-    std::vector<std::size_t> number;  // the caller's index of each
+    std::vector<std::size_t> number;  // the caller's index of each; of a pile the lowest
+    // Only where points lie in piles, each of which is one point here: slot s stands for the caller's indices
+    // piled[pile_begin[s]] to piled[pile_begin[s + 1] - 1], in ascending order.
+    std::vector<std::size_t> pile_begin, piled;
 
     // nanoflann's names.
     [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
@@ -29,6 +35,17 @@ struct Cloud {
     template <class Box>
     [[nodiscard]] bool kdtree_get_bbox(Box&) const {
         return false;
+    }
+
+    /// The caller's indices at a place in ascending order, until `use` returns false.
+    template <class Use>
+    void for_each_at(Slot slot, Use use) const {
+        if (pile_begin.empty()) {
+            use(number[slot]);
+            return;
+        }
+        for (std::size_t k = pile_begin[slot]; k < pile_begin[slot + 1] && use(piled[k]); ++k) {
+        }
     }
 };
 
@@ -42,7 +59,6 @@ double widened(double squared) { return squared * (1 + 1e-14) + std::numeric_lim
 struct Candidate {
     double squared = std::numeric_limits<double>::infinity();
     std::size_t number = std::numeric_limits<std::size_t>::max();
-    Slot slot = 0;
     [[nodiscard]] bool operator<(const Candidate& other) const {
         return squared < other.squared || (squared == other.squared && number < other.number);
     }
@@ -76,9 +92,13 @@ struct NearestFew {
         return found.size() < capacity ? std::numeric_limits<double>::infinity() : widened(found.front().squared);
     }
     bool addPoint(double squared, Slot slot) {
-        const Candidate candidate{squared, cloud.number[slot], slot};
+        cloud.for_each_at(slot, [&](std::size_t number) { return keep({squared, number}); });
+        return true;
+    }
+    /// Whether another at the same place, with a higher index, may be kept, too.
+    bool keep(const Candidate& candidate) {
         if (found.size() == capacity) {
-            if (!(candidate < found.front())) return true;
+            if (!(candidate < found.front())) return false;
             std::pop_heap(found.begin(), found.end());
             found.pop_back();
         }
@@ -95,7 +115,11 @@ struct WithinRadius {
     std::vector<Candidate> found;
     [[nodiscard]] double worstDist() const { return widened(squared_radius); }
     bool addPoint(double squared, Slot slot) {
-        if (squared <= squared_radius) found.push_back({squared, cloud.number[slot], slot});
+        if (squared <= squared_radius)
+            cloud.for_each_at(slot, [&](std::size_t number) {
+                found.push_back({squared, number});
+                return true;
+            });
         return true;
     }
     [[nodiscard]] static bool full() { return true; }
@@ -108,7 +132,8 @@ Cloud checked_cloud(std::span<const Point> points_mm) {
     if (points_mm.size() > std::numeric_limits<Slot>::max())
         throw InputError(fmt::format("point index: {} points are more than it can hold ({})", points_mm.size(),
                                      std::numeric_limits<Slot>::max()));
-    Cloud cloud{{points_mm.begin(), points_mm.end()}, {}};
+    Cloud cloud;
+    cloud.points.assign(points_mm.begin(), points_mm.end());
     cloud.number.resize(points_mm.size());
     for (std::size_t i = 0; i < points_mm.size(); ++i) {
         if (!points_mm[i].allFinite())
@@ -134,26 +159,76 @@ std::vector<PointIndex::Neighbour> sorted_neighbours(std::vector<Candidate> foun
 }
 
 constexpr std::size_t points_per_leaf = 16;      // quicker to build than 10, as quick to ask
+constexpr std::size_t longest_pile = 8;          // equal points that may lie in a leaf one by one
 constexpr std::size_t queries_per_piece = 1024;  // about 0.2 ms of work
 
 }  // namespace
 
 struct PointIndex::Impl {
     Cloud cloud;
-    Tree tree;
+    std::size_t size;  // of the caller's points
+    std::optional<Tree> tree;
 
-    explicit Impl(std::span<const Point> points_mm)
-        : cloud(checked_cloud(points_mm)), tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(points_per_leaf)) {
-        for (std::size_t slot = 0; slot < points_mm.size(); ++slot) {
-            cloud.number[slot] = tree.vAcc[slot];
-            cloud.points[slot] = points_mm[tree.vAcc[slot]];
-            tree.vAcc[slot] = static_cast<Slot>(slot);
+    explicit Impl(std::span<const Point> points_mm) : cloud(checked_cloud(points_mm)), size(points_mm.size()) {
+        make_tree();
+        for (std::size_t slot = 0; slot < size; ++slot) {
+            cloud.number[slot] = tree->vAcc[slot];
+            cloud.points[slot] = points_mm[tree->vAcc[slot]];
+            tree->vAcc[slot] = static_cast<Slot>(slot);
         }
+        // A search for several visits every point that is as near as the last one it keeps, so a pile of n equal points
+        // would cost each search n steps. Equal points fill whole leaves: a run of them there betrays a pile.
+        if (longest_run() > longest_pile) make_tree_of_piles();
+    }
+
+    void make_tree() { tree.emplace(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(points_per_leaf)); }
+
+    [[nodiscard]] std::size_t longest_run() const {
+        std::size_t longest = 1;
+        for (std::size_t slot = 1, begin = 0; slot < cloud.points.size(); ++slot) {
+            if (cloud.points[slot] != cloud.points[slot - 1]) begin = slot;
+            longest = std::max(longest, slot + 1 - begin);
+        }
+        return longest;
+    }
+
+    void make_tree_of_piles() {
+        std::vector<Slot> order(size);
+        std::iota(order.begin(), order.end(), Slot{0});
+        const auto place = [&](Slot s) {
+            return std::array{cloud.points[s].x(), cloud.points[s].y(), cloud.points[s].z()};
+        };
+        std::sort(order.begin(), order.end(), [&](Slot a, Slot b) {
+            const auto at_a = place(a), at_b = place(b);
+            return at_a != at_b ? at_a < at_b : cloud.number[a] < cloud.number[b];
+        });
+        Cloud piles;
+        for (const Slot s : order) {
+            if (piles.points.empty() || piles.points.back() != cloud.points[s]) {
+                piles.points.push_back(cloud.points[s]);
+                piles.pile_begin.push_back(piles.piled.size());
+            }
+            piles.piled.push_back(cloud.number[s]);
+        }
+        piles.pile_begin.push_back(size);
+        cloud.points = piles.points;
+        make_tree();
+        cloud.number.resize(piles.points.size());
+        for (std::size_t slot = 0; slot < piles.points.size(); ++slot) {
+            const Slot from = tree->vAcc[slot];
+            tree->vAcc[slot] = static_cast<Slot>(slot);
+            cloud.points[slot] = piles.points[from];
+            cloud.pile_begin.push_back(cloud.piled.size());
+            for (std::size_t k = piles.pile_begin[from]; k < piles.pile_begin[from + 1]; ++k)
+                cloud.piled.push_back(piles.piled[k]);
+            cloud.number[slot] = cloud.piled[cloud.pile_begin.back()];
+        }
+        cloud.pile_begin.push_back(size);
     }
 
     template <class Result>
     void search(Result& result, const Point& query_mm) const {
-        tree.findNeighbors(result, query_mm.data(), nanoflann::SearchParams());
+        tree->findNeighbors(result, query_mm.data(), nanoflann::SearchParams());
     }
 };
 
@@ -190,7 +265,7 @@ std::vector<PointIndex::Neighbour> PointIndex::nearest(const Point& query_mm, st
     check_query(query_mm);
     if (k == 0) return {};
     NearestFew result{impl_->cloud, k, {}};
-    result.found.reserve(std::min(k, impl_->cloud.points.size()));
+    result.found.reserve(std::min(k, impl_->size));
     impl_->search(result, query_mm);
     return sorted_neighbours(std::move(result.found));
 }
@@ -202,5 +277,7 @@ std::vector<PointIndex::Neighbour> PointIndex::within(const Point& query_mm, dou
     impl_->search(result, query_mm);
     return sorted_neighbours(std::move(result.found));
 }
+
+std::size_t PointIndex::places() const { return impl_->cloud.points.size(); }
 
 }  // namespace mimik::geometry

@@ -9,7 +9,8 @@
 
 namespace mimik::geometry {
 
-/// Nearest points of a cloud: build once, ask often, from any thread. Ties go to the lower index.
+/// Nearest points of a cloud: build once, ask often, from any thread. Ties go to the lower index. A pile of equal
+/// points is one place to a search, however many lie there.
 class PointIndex {
 public:
     /// @throws InputError if there is no point or one is not finite.
@@ -27,6 +28,9 @@ public:
     /// The k nearest, nearest first (fewer if the cloud is smaller).
     [[nodiscard]] std::vector<Neighbour> nearest(const Point& query_mm, std::size_t k) const;
     [[nodiscard]] std::vector<Neighbour> within(const Point& query_mm, double radius_mm) const;  ///< nearest first
+
+    /// What a search chooses from: the points, each pile of equal ones (from nine on) once.
+    [[nodiscard]] std::size_t places() const;
 
 private:
     struct Impl;

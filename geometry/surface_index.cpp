@@ -8,6 +8,7 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,19 +16,16 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "geometry/box_distance.h"
+#include "geometry/crowded_surface.h"
+#include "geometry/triangle_foot.h"
+#include "geometry/weld.h"
 
 namespace mimik::geometry {
 namespace {
 
 constexpr std::size_t width = BoxNode::width;
 constexpr double max_coordinate_mm = 1e9;
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-// b and c as edges from a.
-struct Corners {
-    Point a;
-    Vector ab, ac;
-};
+constexpr std::uint32_t none = no_triangle;
 
 struct Box {
     Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
@@ -48,75 +46,6 @@ float above(double value) {
     return f + std::abs(f) * 1.2e-7F + 1e-30F;
 }
 
-struct Foot {
-    double squared_mm2 = std::numeric_limits<double>::infinity();
-    Vector from_a = Vector::Zero();  // foot - a
-    double b = 0, c = 0;             // weights; exactly 0 (or b + c exactly 1) on an edge
-    int edge = -1;                   // 0: ab, 1: ac, 2: bc, -1: inside
-};
-
-struct Nearest {
-    Foot foot;
-    std::uint32_t triangle = none;
-};
-
-// Closest point of a segment from the origin of `to_query` along `edge`.
-double along(const Vector& to_query, const Vector& edge) {
-    const double length2 = edge.squaredNorm();
-    const double t = to_query.dot(edge);
-    return t <= 0.0 || length2 == 0.0 ? 0.0 : (t >= length2 ? 1.0 : t / length2);
-}
-
-// Inside the prism over the triangle the distance is that to its plane; otherwise the closest point lies on an edge
-// whose outer side holds the query. Weights come from the normal (error ~ eps / aspect ratio) and not from the Gram
-// determinant (eps / aspect ratio squared), so slivers do no harm; without area only the edges are measured.
-Foot measure(const Corners& t, const Point& query) {
-    const Vector ap = query - t.a;
-    const Vector normal = t.ab.cross(t.ac);
-    const double area2 = normal.squaredNorm();
-    const double b = normal.dot(ap.cross(t.ac));
-    const double c = normal.dot(t.ab.cross(ap));
-    const double a = area2 - b - c;
-    const bool flat = area2 <= 1e-28 * t.ab.squaredNorm() * t.ac.squaredNorm();
-    if (!flat && a > 0.0 && b > 0.0 && c > 0.0) {
-        const double height = normal.dot(ap) / area2;
-        return {height * height * area2, ap - height * normal, b / area2, c / area2, -1};
-    }
-    Foot best;
-    const auto consider = [&](int edge, double s, const Vector& from_a) {
-        const double squared = (ap - from_a).squaredNorm();
-        if (squared < best.squared_mm2)
-            best = {squared, from_a, edge == 0 ? s : (edge == 2 ? 1.0 - s : 0.0), edge == 0 ? 0.0 : s, edge};
-    };
-    if (flat || c <= 0.0) {
-        const double s = along(ap, t.ab);
-        consider(0, s, s * t.ab);
-    }
-    if (flat || b <= 0.0) {
-        const double s = along(ap, t.ac);
-        consider(1, s, s * t.ac);
-    }
-    if (flat || a <= 0.0) {
-        const Vector bc = t.ac - t.ab;
-        const double s = along(ap - t.ab, bc);
-        consider(2, s, t.ab + s * bc);
-    }
-    return best;
-}
-
-struct PositionHash {
-    std::size_t operator()(const std::array<double, 3>& p) const {
-        std::uint64_t h = 0x9E3779B97F4A7C15ULL;
-        for (const double value : p) {
-            std::uint64_t bits = 0;
-            std::memcpy(&bits, &value, sizeof bits);
-            h = (h ^ bits) * 0xFF51AFD7ED558CCDULL;
-            h ^= h >> 32;
-        }
-        return h;
-    }
-};
-
 }  // namespace
 
 struct SurfaceIndex::Impl {
@@ -125,6 +54,7 @@ struct SurfaceIndex::Impl {
     std::vector<BoxNode> nodes;
     Point centre = Point::Zero();
     BoxDistances distances = box_distances();
+    std::optional<CrowdedSurface> crowded;  // searched in the place of the nodes
 
     // Only those who ask for borders pay for them.
     mutable std::once_flag border_once;
@@ -135,6 +65,7 @@ struct SurfaceIndex::Impl {
         : vertices(vertices_mm.begin(), vertices_mm.end()), triangles(triangles_.begin(), triangles_.end()) {
         check();
         build();
+        if (is_crowded(vertices, triangles)) crowded.emplace(vertices, triangles);
     }
 
     void check() const {
@@ -271,7 +202,7 @@ struct SurfaceIndex::Impl {
 
     // Depth first, near children first. `best` may hold an upper bound from a neighbouring query's triangle. A box is
     // left out only if it is strictly farther than the best triangle, so that ties reach the comparison of indices.
-    void search(const Point& query, Nearest& best) const {
+    void search(const Point& query, Nearest& best, SearchEffort& effort) const {
         struct Entry {
             float bound;
             std::uint32_t node;
@@ -282,12 +213,14 @@ struct SurfaceIndex::Impl {
             q_high[static_cast<std::size_t>(axis)] = above(query[axis] - centre[axis]);
         }
         float limit = upper(best.foot.squared_mm2);
+        std::uint64_t looked_at = 0, measured = 0;
         std::array<Entry, 256> stack;  // at most 7 waiting per level, 11 levels for 2^32 triangles
         std::size_t waiting = 0;
         stack[waiting++] = {0.0F, 0};
         while (waiting > 0) {
             const Entry entry = stack[--waiting];
             if (entry.bound > limit) continue;
+            ++looked_at;
             const BoxNode& node = nodes[entry.node];
             alignas(32) std::array<float, width> bound;
             std::uint32_t within = distances(node, q_low.data(), q_high.data(), limit, bound.data());
@@ -297,6 +230,7 @@ struct SurfaceIndex::Impl {
                     if (bound[k] > limit) continue;
                     const std::uint32_t triangle = node.child[k];
                     if (triangle == best.triangle) continue;
+                    ++measured;
                     const Foot foot = measure(corners(triangle), query);
                     if (foot.squared_mm2 < best.foot.squared_mm2 ||
                         (foot.squared_mm2 == best.foot.squared_mm2 && triangle < best.triangle)) {
@@ -314,6 +248,20 @@ struct SurfaceIndex::Impl {
                 }
             }
         }
+        effort.boxes += looked_at;
+        effort.triangles += measured;
+    }
+
+    // From the triangle `start` on, if it is one.
+    Nearest nearest(const Point& query, std::uint32_t start, SearchEffort& effort) const {
+        Nearest best;
+        if (crowded) {
+            crowded->search(vertices, triangles, query, start, best, effort);
+            return best;
+        }
+        if (start != none) best = {measure(corners(start), query), start};
+        search(query, best, effort);
+        return best;
     }
 
     // Never infinite, so that the infinitely far boxes of unused children stay out of any limit.
@@ -339,26 +287,8 @@ struct SurfaceIndex::Impl {
         return point;
     }
 
-    // Vertices at exactly the same position get one number. Those of no triangle get none: grid vertices outside the
-    // face are NaN, equal to nothing, not even to themselves.
-    std::vector<std::uint32_t> weld() const {
-        std::vector<std::uint32_t> welded(vertices.size(), none);
-        const std::size_t slots = std::bit_ceil(2 * vertices.size());
-        std::vector<std::uint32_t> first_at(slots, none);  // open addressing, at most half full
-        for (const auto& t : triangles)
-            for (const auto v : t) {
-                if (welded[v] != none) continue;
-                const Point p = vertices[v] + Point::Zero();  // -0 becomes 0
-                std::size_t slot = PositionHash{}({p.x(), p.y(), p.z()}) & (slots - 1);
-                while (first_at[slot] != none && vertices[first_at[slot]] != p) slot = (slot + 1) & (slots - 1);
-                if (first_at[slot] == none) first_at[slot] = v;
-                welded[v] = first_at[slot];
-            }
-        return welded;
-    }
-
     void mark_borders() const {
-        const auto welded = weld();
+        const auto welded = weld(vertices, triangles);
         // The ends of each edge in order; lists of the edges that start at each vertex, one after another.
         const auto ends = [&](const Triangle& t, std::size_t k) {
             return std::minmax({welded[t[k]], welded[t[(k + 1) % 3]]});
@@ -403,7 +333,7 @@ struct SurfaceIndex::Impl {
             }
         border_vertices.assign(vertices.size(), 0);
         for (std::size_t v = 0; v < vertices.size(); ++v)
-            if (welded[v] != none) border_vertices[v] = marked[welded[v]];
+            if (welded[v] != not_welded) border_vertices[v] = marked[welded[v]];
     }
 
     static void check_query(const Point& query, std::size_t index) {
@@ -422,10 +352,13 @@ SurfaceIndex::SurfaceIndex(SurfaceIndex&&) noexcept = default;
 SurfaceIndex& SurfaceIndex::operator=(SurfaceIndex&&) noexcept = default;
 
 SurfacePoint SurfaceIndex::closest(const Point& query_mm) const {
+    SearchEffort effort;
+    return closest(query_mm, effort);
+}
+
+SurfacePoint SurfaceIndex::closest(const Point& query_mm, SearchEffort& effort) const {
     Impl::check_query(query_mm, 0);
-    Nearest best;
-    impl_->search(query_mm, best);
-    return impl_->answer(best);
+    return impl_->answer(impl_->nearest(query_mm, none, effort));
 }
 
 std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_mm) const {
@@ -439,20 +372,16 @@ std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_m
                                      queries_mm.size()));
     std::vector<SurfacePoint> answers(queries_mm.size());
     base::parallel_for(queries_mm.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        SearchEffort effort;
         std::uint32_t start = none;  // without a better guess, the last query's triangle
         for (std::size_t i = begin; i < end; ++i) {
             const Point& query = queries_mm[i];
             Impl::check_query(query, i);
             if (!near_triangles.empty()) start = near_triangles[i];
-            Nearest best;
-            if (start != none) {
-                if (start >= impl_->triangles.size())
-                    throw InputError(
-                        fmt::format("query point {} is said to lie near triangle {}, but there are only {}", i, start,
-                                    impl_->triangles.size()));
-                best = {measure(impl_->corners(start), query), start};
-            }
-            impl_->search(query, best);
+            if (start != none && start >= impl_->triangles.size())
+                throw InputError(fmt::format("query point {} is said to lie near triangle {}, but there are only {}", i,
+                                             start, impl_->triangles.size()));
+            const Nearest best = impl_->nearest(query, start, effort);
             answers[i] = impl_->answer(best);
             start = best.triangle;
         }

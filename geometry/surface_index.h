@@ -18,12 +18,22 @@ struct SurfacePoint {
         Eigen::Vector3d::Zero();  ///< weights of the triangle's corners; exactly 0 off an edge
 };
 
+/// What a search looked at.
+struct SearchEffort {
+    std::uint64_t boxes = 0;      ///< nodes of the tree
+    std::uint64_t triangles = 0;  ///< triangles measured, each as often as it was
+};
+
 /// Exact closest points on a triangle surface: build once, ask often, from any thread.
 ///
 /// A tree of boxes with eight children per node, in single precision and rounded outwards, prunes; the triangles
 /// themselves are measured in double precision (error below 1e-12 mm for faces near the origin). Among triangles at
 /// exactly the same computed distance the lowest index wins, so an answer depends on the query and the surface alone:
 /// not on the number of threads, on neighbouring queries or on the shape of the tree.
+///
+/// Shapes whose boxes lie over one another - needles, fans about one vertex, pages at one edge, piles of equal
+/// triangles - are known by a sample and searched by another tree (`CrowdedSurface`), so that they cost little more
+/// than others. There a corner or an edge that a thousand triangles share is measured once, for the lowest of them.
 class SurfaceIndex {
 public:
     /// Vertices and triangles are copied. O(n log n). Triangles without area are allowed (their edges count).
@@ -36,6 +46,8 @@ public:
 
     /// @throws InputError if the query is not finite (such as a grid vertex outside the hull) or is beyond 1e9 mm.
     [[nodiscard]] SurfacePoint closest(const Point& query_mm) const;
+    /// The same; adds to `effort` what the search looked at.
+    [[nodiscard]] SurfacePoint closest(const Point& query_mm, SearchEffort& effort) const;
     /// Many at once, parallel; neighbouring queries that lie close together are answered faster.
     [[nodiscard]] std::vector<SurfacePoint> closest(std::span<const Point> queries_mm) const;
     /// The same answers, sooner where query k lies near the triangle `near_triangles[k]`: that of its last answer, when

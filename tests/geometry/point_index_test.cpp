@@ -96,6 +96,46 @@ TEST(PointIndex, a_thousand_equal_points_are_found_with_the_first_in_front) {
     EXPECT_EQ(index.nearest(Point(1, 2, 3), 2000).size(), 1000U);
 }
 
+TEST(PointIndex, piles_of_equal_points_cost_a_search_no_more_than_single_points) {
+    // One after another they would take 10^10 steps.
+    constexpr std::size_t count = 100'000;
+    const std::vector<Point> piles = {{0, 0, 0}, {1, 0, 0}, {0, 1, -0.0}};
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < count; ++i) points.push_back(piles[i % 3]);
+    points.emplace_back(5, 5, 5);
+    const PointIndex index(points);
+    EXPECT_EQ(index.places(), 4U);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto few = index.nearest(points[i], 3);
+        ASSERT_EQ(few.size(), 3U);
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(few[k].index, i % 3 + 3 * k);
+    }
+    EXPECT_EQ(index.nearest(Point(5, 5, 5), count).size(), count);
+    EXPECT_EQ(index.nearest(Point(5, 5, 5), 2)[1].index, 1U);  // as near as those of the third pile
+    EXPECT_EQ(index.nearest(points)[7].index, 1U);
+    const auto around = index.within(Point(0, 0, 0), 0.5);
+    ASSERT_EQ(around.size(), count / 3 + 1);
+    for (std::size_t k = 0; k < around.size(); ++k) EXPECT_EQ(around[k].index, 3 * k);
+}
+
+TEST(PointIndex, piles_among_other_points_change_no_answer) {
+    auto points = random_cloud(2000, 7);
+    for (std::size_t i = 0; i < 200; ++i) points[5 + 7 * i] = points[3];
+    for (std::size_t i = 0; i < 40; ++i) points[6 + 9 * i] = points[1999];
+    const PointIndex index(points);
+    EXPECT_LT(index.places(), 1800U);
+    auto queries = random_cloud(50, 8);
+    queries.push_back(points[3]);
+    queries.push_back(points[1999]);
+    for (const auto& query : queries) {
+        const auto expected = by_brute_force(points, query);
+        EXPECT_EQ(index.nearest(query).index, expected[0].index);
+        const auto few = index.nearest(query, 300);
+        ASSERT_EQ(few.size(), 300U);
+        for (std::size_t k = 0; k < 300; ++k) EXPECT_EQ(few[k].index, expected[k].index) << k;
+    }
+}
+
 TEST(PointIndex, gives_the_same_answers_on_one_thread_and_on_two) {
     const auto points = random_cloud(5000, 3);
     const auto queries = random_cloud(5000, 4);
