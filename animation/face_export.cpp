@@ -49,6 +49,17 @@ struct Shape {
     const std::vector<Vector>* displacement_mm = nullptr;
 };
 
+/// The image as a PNG file; none if there is none, or it cannot be read: the face goes without.
+std::vector<std::uint8_t> texture_png(const std::filesystem::path& texture_file, std::vector<std::string>& remarks) {
+    if (texture_file.empty()) return {};
+    try {
+        return io::read_as_png(texture_file);
+    } catch (const InputError& e) {
+        remarks.push_back(fmt::format("the face has no picture: {}", e.what()));
+        return {};
+    }
+}
+
 std::vector<std::string> write_glb_face(const std::filesystem::path& file, const AnimatedFace& animated,
                                         const preprocessing::Face& neutral, std::span<const NamedMagnitude> names,
                                         const std::filesystem::path& texture_file, const ExportOptions& options) {
@@ -77,7 +88,8 @@ std::vector<std::string> write_glb_face(const std::filesystem::path& file, const
     const auto resting = mesh_of(animated, neutral, options, Positions::neutral, &kept);
     auto mesh = io::glb_mesh(resting, &source);
     mesh.name = neutral.id.subject;
-    if (!texture_file.empty()) mesh.texture_png = io::read_as_png(texture_file);
+    if (!mesh.texture_coordinates.empty()) mesh.texture_png = texture_png(texture_file, remarks);
+    mesh.asset_extras = options.made_by;
     const Eigen::Matrix3d turn = options.average_from_scan ? Eigen::Matrix3d(options.average_from_scan->linear())
                                                            : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     for (const auto& shape : shapes) {
@@ -130,15 +142,15 @@ std::vector<std::string> write_animated_face(const std::filesystem::path& file, 
         throw InputError(fmt::format("{}: an animated face is written as .ply, .obj, .vtp or .glb, not '{}'",
                                      file.string(), extension));
     io::MeshWriteOptions write_options;
-    if (!texture_file.empty()) {
-        const auto bytes = io::read_as_png(texture_file);
+    write_options.made_by = options.made_by;
+    std::vector<std::string> remarks;
+    if (const auto bytes = texture_png(texture_file, remarks); !bytes.empty()) {
         // Not face.png: that may be somebody's picture of the face.
         const auto copy = file.parent_path() / (file.stem().string() + "_texture.png");
         base::write_atomically(copy, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
         write_options.texture_file = copy.filename().string();
     }
     const auto mesh = to_mesh(animated, neutral, options);
-    std::vector<std::string> remarks;
     if (const auto values = vertex_values_file(file); !values.empty()) {
         write_vertex_values(values, mesh);
         remarks.push_back(

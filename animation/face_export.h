@@ -8,6 +8,7 @@
 
 #include "animation/animate.h"
 #include "geometry/mesh.h"
+#include "io/mesh_io.h"
 #include "preprocessing/face.h"
 
 namespace mimik::animation {
@@ -15,6 +16,7 @@ namespace mimik::animation {
 struct ExportOptions {
     std::optional<geometry::Transform> average_from_scan = {};  ///< set: in the average frame; else in the scanner's
     geometry::BridgedVertices bridged = geometry::BridgedVertices::leave_out;  ///< quads over holes: not measurements
+    io::MadeBy made_by = {};  ///< kept in the file: comments of PLY and OBJ, field data of VTP, asset.extras of GLB
 };
 
 /// The animated face of a scan as a mesh: quads of the grid, texture coordinates, attributes `displacement_mm` (3 per
@@ -40,7 +42,7 @@ struct NamedMagnitude {
 /// go along: in a .glb as _DISPLACEMENT_MM (of all expressions as they are set) and _ORIGIN, of an .obj in a table
 /// beside it (vertex_values_file).
 /// @param neutral  what was animated
-/// @param texture_file  PNG or JPEG of the scan; empty: none.
+/// @param texture_file  PNG, JPEG or BMP of the scan; empty: none. One that cannot be read is left out, with a remark.
 /// @param names  one per expression, in the order of `animated.shapes`; used by GLB only.
 /// @return remarks: what the file cannot hold as it was asked for.
 /// @throws InputError for another extension, equal names of morph targets, or if the file cannot be written.

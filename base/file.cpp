@@ -1,18 +1,20 @@
 #include "base/file.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <locale>
+#include <optional>
+#include <streambuf>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "base/errors.h"
+#include "base/temporary.h"
+#include "base/text.h"
 
 namespace mimik::base {
 namespace {
@@ -56,22 +58,56 @@ Container read_whole(const std::filesystem::path& file, std::uintmax_t max_bytes
     return read_first<Container>(file, size);
 }
 
-/// Removes the temporary unless it was renamed away.
-class TemporaryFile {
+/// Writes to an open file.
+class DescriptorBuffer : public std::streambuf {
 public:
-    explicit TemporaryFile(std::filesystem::path path) : path_(std::move(path)) {}
-    ~TemporaryFile() {
-        std::error_code ignored;
-        if (!path_.empty()) std::filesystem::remove(path_, ignored);
+    explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor), buffer_(1 << 16) { reset(); }
+
+protected:
+    int overflow(int c) override {
+        if (!flush()) return traits_type::eof();
+        if (c != traits_type::eof()) sputc(static_cast<char>(c));
+        return traits_type::not_eof(c);
     }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    void keep() { path_.clear(); }
+    std::streamsize xsputn(const char* text, std::streamsize size) override {
+        if (size <= epptr() - pptr()) {
+            std::memcpy(pptr(), text, static_cast<std::size_t>(size));
+            pbump(static_cast<int>(size));
+            return size;
+        }
+        return flush() && write(text, static_cast<std::size_t>(size)) ? size : 0;
+    }
+    int sync() override { return flush() ? 0 : -1; }
 
 private:
-    std::filesystem::path path_;
+    void reset() { setp(buffer_.data(), buffer_.data() + buffer_.size()); }
+    bool flush() {
+        const bool done = write(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+        reset();
+        return done;
+    }
+    bool write(const char* text, std::size_t size) const {
+        while (size > 0) {
+            const auto written = ::write(descriptor_, text, size);
+            if (written < 0 && errno == EINTR) continue;
+            if (written <= 0) return false;
+            text += written;
+            size -= static_cast<std::size_t>(written);
+        }
+        return true;
+    }
+
+    int descriptor_;
+    std::vector<char> buffer_;
 };
+
+/// A name that a terminal, a table or another file's header cannot hold is somebody's slip.
+void check_name(const std::filesystem::path& file) {
+    const auto name = file.filename().string();
+    if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }))
+        throw InputError(fmt::format("{}: the file's name has a line break or another control character; give another",
+                                     in_quotes(name)));
+}
 
 }  // namespace
 
@@ -94,6 +130,7 @@ bool is_there(const std::filesystem::path& path) {
 
 void write_atomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
     std::error_code error;
+    check_name(file);
     if (file.filename().empty() || std::filesystem::is_directory(file, error))
         throw InputError(fmt::format("{}: is a folder; name the file to write", file.string()));
     if (const auto folder = file.parent_path(); !folder.empty()) {
@@ -102,29 +139,33 @@ void write_atomically(const std::filesystem::path& file, const std::function<voi
             throw InputError(
                 fmt::format("{}: its folder cannot be made ({}); write elsewhere", file.string(), error.message()));
     }
-    // Process and counter keep two writers of one file apart; the last to finish wins, each with a whole file.
-    static std::atomic<unsigned> counter{0};
-    auto path = file;
-    path += fmt::format(".{}-{}.part", ::getpid(), counter.fetch_add(1));
-    TemporaryFile temporary(std::move(path));
-
-    errno = 0;
-    std::ofstream stream(temporary.path(), std::ios::binary | std::ios::trunc);
-    if (!stream)
-        throw InputError(fmt::format("{}: cannot be written ({}); check the folder's permissions", file.string(),
-                                     std::strerror(errno)));
+    const auto refuse = [&](const char* what, int number, const char* mend) {
+        const auto reason = number == 0 ? std::string() : fmt::format(" ({})", std::strerror(number));
+        throw InputError(fmt::format("{}: {}{}; {}", file.string(), what, reason, mend));
+    };
+    // Two writers of one file have temporaries of their own; the last to finish wins, each with a whole file.
+    std::optional<TemporaryFile> temporary;
+    try {
+        temporary.emplace(file.parent_path());
+    } catch (const std::system_error& e) {
+        refuse("cannot be written", e.code().value(), "check the folder's permissions");
+    }
+    DescriptorBuffer buffer(temporary->descriptor());
+    std::ostream stream(&buffer);
     stream.imbue(std::locale::classic());
     write(stream);
     errno = 0;
-    stream.close();
-    if (!stream)
-        throw InputError(fmt::format("{}: could not be written to its end{}; is the disk full?", file.string(),
-                                     errno == 0 ? std::string() : fmt::format(" ({})", std::strerror(errno))));
-    std::filesystem::rename(temporary.path(), file, error);
-    if (error)
-        throw InputError(
-            fmt::format("{}: cannot be replaced ({}); check the folder's permissions", file.string(), error.message()));
-    temporary.keep();
+    stream.flush();
+    // Some file systems say only at a close that they have no room; the file itself stays open and locked.
+    if (stream)
+        if (const int copy = ::dup(temporary->descriptor()); copy < 0 || ::close(copy) != 0)
+            stream.setstate(std::ios::failbit);
+    if (!stream) refuse("could not be written to its end", errno, "is the disk full?");
+    try {
+        temporary->become(file);
+    } catch (const std::system_error& e) {
+        refuse("cannot be replaced", e.code().value(), "check the folder's permissions");
+    }
 }
 
 void write_atomically(const std::filesystem::path& file, std::string_view content) {

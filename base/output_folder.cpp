@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
-#include "base/file.h"
+#include "base/temporary.h"
 
 namespace mimik::base {
 
@@ -18,13 +18,26 @@ void check_takes_files(const std::filesystem::path& folder) {
     if (error)
         throw InputError(
             fmt::format("{}: the folder cannot be made ({}); write elsewhere", folder.string(), error.message()));
-    const auto probe = folder / "mimik.probe";
     try {
-        write_atomically(probe, "");
-    } catch (const InputError& e) {  // of the folder that was given, not of a file that nobody knows
-        throw InputError(folder.string() + std::string(e.what()).substr(probe.string().size()));
+        const TemporaryFile probe(folder);
+    } catch (const std::system_error& e) {
+        throw InputError(fmt::format("{}: cannot be written ({}); check the folder's permissions", folder.string(),
+                                     e.code().message()));
     }
-    std::filesystem::remove(probe, ignored);
+}
+
+std::filesystem::path where_links_lead(const std::filesystem::path& file) {
+    std::error_code error;
+    auto place = file;
+    constexpr int most_links = 40;  // as the system itself follows
+    for (int k = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(place, error)); ++k) {
+        auto goal = std::filesystem::read_symlink(place, error);
+        if (error || k == most_links)
+            throw InputError(
+                fmt::format("{}: is a link that leads nowhere; remove it or name another file", file.string()));
+        place = place.parent_path() / goal;
+    }
+    return place;
 }
 
 }  // namespace mimik::base

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,6 +12,8 @@
 #include "animation/animate.h"
 #include "animation/face_export.h"
 #include "base/errors.h"
+#include "base/output_folder.h"
+#include "base/version.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
 #include "cli/method_options.h"
@@ -128,6 +131,26 @@ std::string source_words(const Arguments& arguments) {
     return arguments.model_files.empty() ? arguments.source : arguments.source + " and model files";
 }
 
+/// What a mesh says of how it was made.
+io::MadeBy made_by(const Arguments& arguments, const preprocessing::Face& neutral, const Chosen& chosen) {
+    std::vector<std::string> expressions;
+    std::set<std::string> scans;
+    for (std::size_t k = 0; k < chosen.models.size(); ++k) {
+        expressions.push_back(fmt::format("{} x {}", chosen.models[k].expression.name(), chosen.names[k].magnitude));
+        scans.insert(chosen.models[k].sources.begin(), chosen.models[k].sources.end());
+    }
+    constexpr std::size_t most_named = 8;  // a mean has hundreds
+    const auto named =
+        scans.size() > most_named ? fmt::format("{} scans", scans.size()) : fmt::format("{}", fmt::join(scans, " "));
+    return {{"made_by", fmt::format("Mimik {} animate", base::version())},
+            {"source", fmt::format("{} ({})", source_words(arguments), named)},
+            {"target", neutral.id.name()},
+            {"expressions", fmt::format("{}", fmt::join(expressions, ", "))},
+            {"combined_by", arguments.combine},
+            {"method", arguments.method.variant_name()},
+            {"frame", arguments.frame}};
+}
+
 void print_json(const Arguments& arguments, const preprocessing::Face& neutral, const Chosen& chosen,
                 const geometry::FieldExtent& extent) {
     auto list = nlohmann::json::array();
@@ -185,8 +208,9 @@ int run(Arguments& arguments) {
             geometry::field_extent(target.surface(), animated.field.mm, export_options.average_from_scan->linear());
     }
     const auto texture = texture_of(neutral, remarks);
-    for (auto& remark :
-         animation::write_animated_face(arguments.output, animated, neutral, chosen.names, texture, export_options))
+    export_options.made_by = made_by(arguments, neutral, chosen);
+    for (auto& remark : animation::write_animated_face(base::where_links_lead(arguments.output), animated, neutral,
+                                                       chosen.names, texture, export_options))
         remarks.push_back(std::move(remark));
     for (const auto& model : chosen.models)
         for (const auto& reason : model.left_out)

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/output_folder.h"
+#include "base/version.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
 #include "cli/method_options.h"
@@ -28,9 +30,17 @@ int run_warp(const WarpArguments& arguments) {
     refuse_range_scan(arguments.input);
     auto options = arguments.options;
     options.kernel = kernel_by_name(arguments.kernel);
+    const io::MadeBy made_by = {{"made_by", fmt::format("Mimik {} warp", base::version())},
+                                {"source", arguments.input.filename().string()},
+                                {"from_landmarks", arguments.from.filename().string()},
+                                {"to_landmarks", arguments.to.filename().string()},
+                                {"kernel", arguments.kernel},
+                                {"smoothing", fmt::format("{}", arguments.options.smoothing)}};
+    const auto output = base::where_links_lead(arguments.output);
     const auto report = naming_any({arguments.from, arguments.to, arguments.input, arguments.output}, [&] {
-        return io::warp_file(arguments.from, arguments.to, arguments.input, arguments.output, options,
-                             [](const std::filesystem::path& image) { database::refuse_hidden_file(image); });
+        return io::warp_file(
+            arguments.from, arguments.to, arguments.input, output, options,
+            [](const std::filesystem::path& image) { database::refuse_hidden_file(image); }, made_by);
     });
     if (arguments.common.json) {
         std::cout << io::json_text(nlohmann::json{{"schema", 1},
@@ -39,8 +49,10 @@ int run_warp(const WarpArguments& arguments) {
                                                   {"points", report.points},
                                                   {"largest_landmark_residual", report.largest_landmark_residual},
                                                   {"largest_displacement", report.largest_displacement},
-                                                  {"bending_energy", report.bending_energy}});
+                                                  {"bending_energy", report.bending_energy},
+                                                  {"remarks", report.remarks}});
     } else if (!arguments.common.quiet) {
+        for (const auto& remark : report.remarks) std::cerr << "note: " << remark << '\n';
         std::cout << fmt::format("{}: {} points moved by up to {:.3f} through {} landmarks (met within {:.2g})\n",
                                  arguments.output.string(), report.points, report.largest_displacement,
                                  report.landmarks, report.largest_landmark_residual);

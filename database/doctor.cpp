@@ -369,9 +369,9 @@ void check_texture(const LoadedScan& loaded, Report& report) {
         report.add(
             Severity::warning, "texture", loaded.scan.texture_error,
             "name an image that lies in the scan's folder; until then the scan is used without the one it names");
-    if (auto smeared = smeared_texture(loaded.scan); !smeared.empty())
-        report.add(Severity::note, "texture", std::move(smeared),
-                   "export the scan with one chart (a picture from the front); its surface is not concerned");
+    if (auto charts = texture_charts(loaded.scan); !charts.empty())
+        report.add(Severity::note, "texture", std::move(charts),
+                   "nothing need be done; a scan with one chart (a picture from the front) keeps its own image");
     if (entry.texture_file.empty()) {
         if (!loaded.scan.texture_file.empty())
             report.add(Severity::note, "texture",

@@ -63,7 +63,7 @@ std::size_t rank(const std::vector<std::string_view>& extensions, const fs::path
 std::map<std::string, ScanEntry> by_stem(const std::vector<fs::path>& entries) {
     static const std::vector<std::string_view> scans = {".bnt", ".ply", ".pcd", ".obj", ".stl"};
     static const std::vector<std::string_view> landmarks = {".lm3", ".pp", ".fcsv", ".mrk.json", ".csv"};
-    static const std::vector<std::string_view> textures = {".png", ".jpg", ".jpeg"};
+    static const std::vector<std::string_view> textures = {".png", ".jpg", ".jpeg", ".bmp"};
     const auto prefer = [](fs::path& kept, const fs::path& candidate, const std::vector<std::string_view>& extensions) {
         const auto place = rank(extensions, candidate);
         if (place < extensions.size() && (kept.empty() || place < rank(extensions, kept))) kept = candidate;
@@ -264,18 +264,23 @@ void check_frame(const FrameCorrelations& correlations, std::vector<std::string>
 void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& nearest) {
     ScanEntry& entry = loaded.entry;
     std::error_code ignored;
+    loaded.remarks.insert(loaded.remarks.end(), loaded.scan.remarks.begin(), loaded.scan.remarks.end());
     if (!loaded.scan.texture_error.empty()) loaded.remarks.push_back(loaded.scan.texture_error);
-    if (auto smeared = smeared_texture(loaded.scan); !smeared.empty()) loaded.remarks.push_back(std::move(smeared));
-    if (const auto& named = loaded.scan.material_file; !named.empty())
+    if (auto words = texture_charts(loaded.scan); !words.empty()) loaded.remarks.push_back(std::move(words));
+    for (const auto& named : loaded.scan.material_files)
         loaded.files_looked_for.push_back(entry.scan_file.parent_path() / named);
-    if (const auto& named = loaded.scan.texture_file; !named.empty()) {
-        const auto beside = entry.scan_file.parent_path() / named;
+    const auto& charts = loaded.scan.charts;
+    auto images = charts ? charts->images : std::vector<std::string>{};
+    if (images.empty() && !loaded.scan.texture_file.empty()) images = {loaded.scan.texture_file};
+    for (std::size_t k = images.size(); k-- > 0;) {  // the first is the scan's in the end
+        const auto beside = entry.scan_file.parent_path() / images[k];
         loaded.files_looked_for.push_back(beside);
         if (fs::is_regular_file(beside, ignored))
             entry.texture_file = beside;
-        else if (entry.texture_file.empty())
-            loaded.remarks.push_back(fmt::format("its texture image '{}' is not beside it", named));
+        else if (entry.texture_file.empty() || images.size() > 1)
+            loaded.remarks.push_back(fmt::format("its texture image '{}' is not beside it", images[k]));
     }
+    if (images.size() > 1) return;  // the marks are in one image, and nobody says in which
     if (entry.landmarks2d_file.empty()) return;
     std::vector<ImageLandmark> marks;
     try {

@@ -127,14 +127,21 @@ std::optional<TextureOrientation> texture_orientation(const geometry::RangeScan&
     return result;
 }
 
-std::string smeared_texture(const geometry::RangeScan& scan) {
-    if (scan.texture_seam_points == 0) return {};
-    return fmt::format("its texture has several charts: at {} points that lie in more than one the texture is smeared",
-                       scan.texture_seam_points);
+std::string texture_charts(const geometry::RangeScan& scan) {
+    const auto images = scan.charts ? scan.charts->images.size() : 0;
+    if (scan.texture_seam_points == 0 && images < 2) return {};
+    std::string what;
+    if (images > 1) what = fmt::format("{} images", images);
+    if (scan.texture_seam_points > 0)
+        what += fmt::format("{}several charts ({} points lie in more than one)", what.empty() ? "" : " and ",
+                            scan.texture_seam_points);
+    return fmt::format("its texture has {}: the resampled face gets a picture of its own", what);
 }
 
 void reorient_texture(geometry::RangeScan& scan, TextureAxes axes) {
     for (auto& t : scan.texture_coordinates) t = turned(t, axes);
+    if (scan.charts)
+        for (auto& t : scan.charts->positions) t = turned(t, axes);
 }
 
 FrameCorrelations frame_correlations(const geometry::RangeScan& scan) {

@@ -49,8 +49,9 @@ struct NearestScanPoint {
                                                                     const std::vector<ImageLandmark>& image_landmarks,
                                                                     std::array<int, 2> image_size);
 
-/// What is to be said of a texture in several charts, from which a scan keeps one position per point; empty of others.
-[[nodiscard]] std::string smeared_texture(const geometry::RangeScan& scan);
+/// What is to be said of a texture in several charts or images, for which a resampled face gets a picture of its own;
+/// empty of others.
+[[nodiscard]] std::string texture_charts(const geometry::RangeScan& scan);
 
 /// Turns texture coordinates that lie as `axes` says into u_right_v_up.
 void reorient_texture(geometry::RangeScan& scan, TextureAxes axes);

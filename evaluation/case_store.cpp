@@ -1,11 +1,10 @@
 #include "evaluation/case_store.h"
 
+#include <system_error>
 #include <utility>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "base/content_hash.h"
 #include "base/csv.h"
@@ -39,37 +38,35 @@ bool next_line(std::istream& in, std::string& line, const std::string& file) {
     return true;
 }
 
-/// A file without a name from the start: whatever ends the program, nothing of it is left.
-int nameless_file() {
-    auto pattern = (fs::temp_directory_path() / "mimik-cases-XXXXXX").string();
-    const int descriptor = ::mkostemp(pattern.data(), O_CLOEXEC);
-    if (descriptor < 0) throw InputError(fmt::format("{}: no temporary file can be made there", pattern));
-    ::unlink(pattern.c_str());
-    return descriptor;
+std::unique_ptr<base::TemporaryFile> temporary_in(const fs::path& folder, const std::string& name) {
+    try {
+        if (!folder.empty()) fs::create_directories(folder);
+        return std::make_unique<base::TemporaryFile>(folder);
+    } catch (const std::system_error& e) {
+        throw InputError(fmt::format("{}: cannot be written ({}); check the folder", name, e.code().message()));
+    }
 }
 
 }  // namespace
 
-CaseStore::CaseStore() : nameless_(nameless_file()), written_(fmt::format("/proc/self/fd/{}", nameless_)) {
-    out_.open(written_, std::ios::binary | std::ios::trunc);
+CaseStore::CaseStore() : written_(temporary_in(fs::temp_directory_path(), name())) {
+    written_->lose_name();
+    out_.open(written_->path(), std::ios::binary | std::ios::trunc);
     out_ << case_row_header() << '\n';
 }
 
-CaseStore::CaseStore(fs::path file) : file_(std::move(file)), written_(file_.string() + ".part") {
-    if (file_.has_parent_path()) fs::create_directories(file_.parent_path());
-    out_.open(written_, std::ios::binary | std::ios::trunc);
+CaseStore::CaseStore(fs::path file)
+    : file_(std::move(file)), written_(temporary_in(file_.parent_path(), file_.string())) {
+    out_.open(written_->path(), std::ios::binary | std::ios::trunc);
     out_ << case_row_header() << '\n';
-    if (!out_.flush()) throw InputError(fmt::format("{}: cannot be written", written_.string()));
+    if (!out_.flush()) throw InputError(fmt::format("{}: cannot be written", name()));
 }
 
-CaseStore::~CaseStore() {
-    out_.close();
-    std::error_code ignored;
-    if (nameless_ >= 0)
-        ::close(nameless_);
-    else if (!written_.empty())
-        fs::remove(written_, ignored);
+std::string CaseStore::name() const {
+    return file_.empty() ? "temporary file in " + fs::temp_directory_path().string() : file_.string();
 }
+
+CaseStore::~CaseStore() = default;
 
 void CaseStore::append(const std::string& unit, std::span<const CaseRow> rows) {
     if (units_.contains(unit)) throw InputError(fmt::format("unit '{}' is stored already", unit));
@@ -81,22 +78,25 @@ void CaseStore::append(const std::string& unit, std::span<const CaseRow> rows) {
         text += line;
     }
     out_ << text << unit_line(unit, rows.size(), hash) << '\n';
-    if (!out_.flush()) throw InputError(fmt::format("{}: takes no more (disk full?)", written_.string()));
+    if (!out_.flush()) throw InputError(fmt::format("{}: takes no more (disk full?)", name()));
     units_.insert(unit);
 }
 
 void CaseStore::read(const std::function<void(const CaseRow&)>& visit) const {
-    const auto units = read_case_rows(written_, visit);
+    const auto units = read_case_rows(written_->path(), visit);
     if (units != units_)
-        throw InputError(fmt::format("{}: {} of {} units can be read back; it was damaged while it was written",
-                                     written_.string(), units.size(), units_.size()));
+        throw InputError(fmt::format("{}: {} of {} units can be read back; it was damaged while it was written", name(),
+                                     units.size(), units_.size()));
 }
 
 void CaseStore::finish() {
     out_.close();
     if (file_.empty()) return;
-    fs::rename(written_, file_);
-    written_.clear();
+    try {
+        written_->become(file_);
+    } catch (const std::system_error& e) {
+        throw InputError(fmt::format("{}: cannot be replaced ({}); check the folder", name(), e.code().message()));
+    }
 }
 
 std::set<std::string> read_case_rows(const fs::path& file, const std::function<void(const CaseRow&)>& visit) {

@@ -5,10 +5,12 @@
 #include <fstream>
 #include <functional>
 #include <istream>
+#include <memory>
 #include <set>
 #include <span>
 #include <string>
 
+#include "base/temporary.h"
 #include "evaluation/case_row.h"
 
 namespace mimik::evaluation {
@@ -20,7 +22,8 @@ class CaseStore {
 public:
     /// In a temporary file without a name, which goes with the store, or with the program.
     CaseStore();
-    /// In `file`, begun anew. Until finish() it is called `file`.part. @throws InputError if it cannot be written.
+    /// In `file`, begun anew. Until finish() it is a temporary beside it (base/temporary.h). @throws InputError if it
+    /// cannot be written.
     explicit CaseStore(std::filesystem::path file);
     ~CaseStore();
     CaseStore(const CaseStore&) = delete;
@@ -38,9 +41,10 @@ public:
     void finish();
 
 private:
-    std::filesystem::path file_;     // empty: temporary
-    int nameless_ = -1;              // the temporary file's descriptor
-    std::filesystem::path written_;  // where the rows are until finish()
+    [[nodiscard]] std::string name() const;  // for messages
+
+    std::filesystem::path file_;  // empty: temporary
+    std::unique_ptr<base::TemporaryFile> written_;
     std::ofstream out_;
     std::set<std::string> units_;
 };

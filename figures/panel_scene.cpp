@@ -133,7 +133,14 @@ Corners split_at_seams(const Mesh& mesh, bool textured) {
     return corners;
 }
 
-vtkSmartPointer<vtkTexture> make_texture(const io::Image& image) {
+/// Whether texture positions leave the image, which repeats then.
+bool repeats_texture(const Mesh& mesh) {
+    constexpr double slack = 1e-3;
+    return std::any_of(mesh.texture_coordinates.begin(), mesh.texture_coordinates.end(),
+                       [](const auto& uv) { return uv.minCoeff() < -slack || uv.maxCoeff() > 1 + slack; });
+}
+
+vtkSmartPointer<vtkTexture> make_texture(const io::Image& image, bool repeats) {
     vtkNew<vtkImageData> data;
     data->SetDimensions(image.width, image.height, 1);
     data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
@@ -145,8 +152,8 @@ vtkSmartPointer<vtkTexture> make_texture(const io::Image& image) {
     texture->SetInputData(data);
     texture->InterpolateOn();
     texture->MipmapOn();
-    texture->RepeatOff();  // the left edge of a photograph must not bleed into its right edge
-    texture->EdgeClampOn();
+    texture->SetRepeat(repeats ? 1 : 0);  // else the left edge of a photograph would bleed into its right edge
+    texture->SetEdgeClamp(repeats ? 0 : 1);
     return texture;
 }
 
@@ -230,7 +237,7 @@ vtkSmartPointer<vtkActor> face_actor(const Panel& panel, const std::array<double
         back->SetSpecular(0);
         actor->SetBackfaceProperty(back);
     }
-    if (textured) actor->SetTexture(make_texture(*panel.texture));
+    if (textured) actor->SetTexture(make_texture(*panel.texture, repeats_texture(mesh)));
     return actor;
 }
 

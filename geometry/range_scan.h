@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +10,15 @@
 #include "geometry/types.h"
 
 namespace mimik::geometry {
+
+/// How the faces of a scan lie in their images, where one position per point does not tell.
+struct TextureCharts {
+    std::vector<Point> points_mm;              ///< of the mesh as it was read
+    Faces faces;                               ///< with texture_corners
+    std::vector<TextureCoordinate> positions;  ///< images repeat: whole numbers make no difference
+    std::vector<std::string> images;           ///< in the scan's folder or below it
+    std::vector<std::uint32_t> image_of_face;  ///< beyond `images`: none; empty: the first
+};
 
 /// One scan as measured: holes, spikes and background still in it. Scanner frame, mm.
 struct RangeScan {
@@ -18,9 +29,12 @@ struct RangeScan {
     std::vector<TextureCoordinate> texture_coordinates;  ///< empty, or one per point
     Faces faces;                                         ///< only where a mesh file gave them
     std::string texture_file;                            ///< in the scan's folder or below it; empty: no texture
+                                                         ///< (of several: the first)
     std::string texture_error;                           ///< why the image that the file names is not used
     std::size_t texture_seam_points = 0;                 ///< of a mesh: points with more than one texture position
-    std::string material_file;                           ///< of an OBJ: where the texture's name stands, likewise
+    std::vector<std::string> material_files;             ///< of an OBJ: where the textures' names stand, likewise
+    std::optional<TextureCharts> charts;                 ///< of a mesh whose texture has seams or several images
+    std::vector<std::string> remarks;                    ///< what its reader left out or took otherwise than written
 
     [[nodiscard]] bool organised() const { return rows > 0; }
     [[nodiscard]] bool valid(std::size_t index) const { return std::isfinite(points_mm[index].x()); }

@@ -264,8 +264,34 @@ void make_unit(std::vector<Vector>& normals) {
     }
 }
 
-Json mesh_json(const GlbMesh& source, std::optional<std::size_t> material, Buffer& buffer) {
+/// Where the node stands: 32 bits keep less than 0.001 mm of positions up to here, so a mesh that lies further away is
+/// written around a place of its own, in whole metres, which 32 bits hold exactly.
+Vector node_offset_mm(const GlbMesh& mesh) {
+    constexpr double near_mm = 1e4, metre_mm = 1e3;
+    Vector low = Vector::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const auto& t : mesh.triangles)
+        for (const auto corner : t) {
+            low = low.cwiseMin(mesh.positions_mm[corner]);
+            high = high.cwiseMax(mesh.positions_mm[corner]);
+        }
+    if (std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()) <= near_mm) return Vector::Zero();
+    return ((low + high) / (2 * metre_mm)).array().round() * metre_mm;
+}
+
+/// Whether viewers have to repeat the picture beyond its borders.
+bool repeats_texture(const GlbMesh& mesh) {
+    constexpr double slack = 1e-6;
+    for (const auto& t : mesh.triangles)
+        for (const auto corner : t) {
+            const auto& uv = mesh.texture_coordinates[corner];
+            if (uv.minCoeff() < -slack || uv.maxCoeff() > 1 + slack) return true;
+        }
+    return false;
+}
+
+Json mesh_json(const GlbMesh& source, const Vector& offset_mm, std::optional<std::size_t> material, Buffer& buffer) {
     auto mesh = compacted(source);
+    for (auto& p : mesh.positions_mm) p -= offset_mm;
     if (mesh.normals.empty()) mesh.normals = geometry::vertex_normals(mesh.positions_mm, mesh.triangles);
     make_unit(mesh.normals);
     Json attributes;
@@ -348,14 +374,21 @@ std::vector<std::uint8_t> encode_glb(const GlbMesh& mesh) {
     Json json = {{"asset", {{"version", "2.0"}, {"generator", "Mimik"}}}, {"scene", 0}};
     if (!mesh.asset_extras.empty()) json["asset"]["extras"] = object_of(mesh.asset_extras);
     json["scenes"] = Json::array({{{"nodes", {0}}}});
-    json["nodes"] = Json::array({{{"name", mesh.name}, {"mesh", 0}}});
-    json["meshes"] = Json::array({mesh_json(mesh, 0, buffer)});
+    Json node = {{"name", mesh.name}, {"mesh", 0}};
+    const auto offset_mm = node_offset_mm(mesh);
+    if (!offset_mm.isZero(0.0)) {
+        const Vector metres = offset_mm * metres_per_mm;
+        node["translation"] = {metres.x(), metres.y(), metres.z()};
+    }
+    json["nodes"] = Json::array({node});
+    json["meshes"] = Json::array({mesh_json(mesh, offset_mm, 0, buffer)});
     json["materials"] = Json::array({{{"name", mesh.name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}}});
     if (textured) {
         json["textures"] = Json::array({{{"sampler", 0}, {"source", 0}}});
         json["images"] = Json::array({{{"mimeType", "image/png"}, {"bufferView", image}}});
-        json["samplers"] =
-            Json::array({{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33071}}});
+        constexpr int clamp = 33071, repeat = 10497;
+        const int wrap = repeats_texture(mesh) ? repeat : clamp;
+        json["samplers"] = Json::array({{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", wrap}, {"wrapT", wrap}}});
     }
     auto binary = buffer.bytes();
     json["accessors"] = std::move(buffer.accessors);

@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "io/bmp.h"
 #include "io/jpeg.h"
 
 namespace mimik::io {
@@ -61,8 +62,7 @@ struct PngHeader {
 
 PngHeader parse_png_header(std::span<const std::uint8_t> bytes, const std::string& name) {
     if (bytes.size() < 33 || png_sig_cmp(bytes.data(), 0, 8) != 0 || std::memcmp(bytes.data() + 12, "IHDR", 4) != 0)
-        throw InputError(
-            fmt::format("{}: is neither a PNG nor a JPEG image (no signature and header); save it as PNG", name));
+        throw InputError(fmt::format("{}: is no PNG image (no signature and header); save it as PNG", name));
     const auto big_endian = [&](std::size_t at) {
         return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 | std::uint32_t{bytes[at + 2]} << 8 |
                bytes[at + 3];
@@ -183,25 +183,60 @@ void write_png(const std::filesystem::path& file, const Image& image) {
     base::write_atomically(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
-Image read_image(const std::filesystem::path& file) {
-    const auto bytes = base::read_bytes(file);
-    return is_jpeg(bytes) ? decode_jpeg(bytes, file.string()) : decode_png(bytes, file.string());
+std::string_view image_kind(std::span<const std::uint8_t> bytes) {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> beginnings = {
+        {{"\x89PNG\r\n\x1A\n", "PNG"},
+         {"\xFF\xD8\xFF", "JPEG"},
+         {"BM", "BMP"},
+         {std::string_view("II*\0", 4), "TIFF"},
+         {std::string_view("MM\0*", 4), "TIFF"},
+         {std::string_view("II+\0", 4), "TIFF"},
+         {"GIF87a", "GIF"},
+         {"GIF89a", "GIF"},
+         {"\x76\x2F\x31\x01", "OpenEXR"},
+         {"8BPS", "Photoshop"},
+         {"DDS ", "DDS"},
+         {std::string_view("\0\0\0\x0CjP  ", 8), "JPEG 2000"},
+         {"#?RADIANCE", "HDR"}}};
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("RIFF") && text.size() >= 12 && text.substr(8, 4) == "WEBP") return "WebP";
+    for (const auto& [beginning, kind] : beginnings)
+        if (text.starts_with(beginning)) return kind;
+    return {};
 }
 
+Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name) {
+    const auto kind = image_kind(bytes);
+    if (kind == "JPEG") return decode_jpeg(bytes, name);
+    if (kind == "PNG") return decode_png(bytes, name);
+    if (kind == "BMP") return decode_bmp(bytes, name);
+    if (!kind.empty())
+        throw InputError(fmt::format("{}: is a {} image, which is not read; save it as PNG or JPEG", name, kind));
+    throw InputError(fmt::format("{}: is neither a PNG, a JPEG nor a BMP image; save it as PNG", name));
+}
+
+Image read_image(const std::filesystem::path& file) { return decode_image(base::read_bytes(file), file.string()); }
+
 std::array<int, 2> image_size(const std::filesystem::path& file) {
-    const auto text = base::read_text_head(file, 33);
+    const auto text = base::read_text_head(file, 64);
     const std::span head(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-    if (is_jpeg(head))
-        return jpeg_size(base::read_bytes(file), file.string());  // its header may stand behind a thumbnail
+    const auto kind = image_kind(head);
+    if (kind == "JPEG") return jpeg_size(base::read_bytes(file), file.string());  // may stand behind a thumbnail
+    if (kind == "BMP") return bmp_size(head, file.string());
+    if (kind != "PNG") (void)decode_image(head, file.string());  // says what it is
     const auto header = parse_png_header(head, file.string());
     return {static_cast<int>(header.width), static_cast<int>(header.height)};
 }
 
 std::vector<std::uint8_t> read_as_png(const std::filesystem::path& file) {
     auto bytes = base::read_bytes(file);
-    if (is_jpeg(bytes)) return encode_png(decode_jpeg(bytes, file.string()));
-    const auto image = decode_png(bytes, file.string());
-    return ends_as_png(bytes) ? bytes : encode_png(image);
+    const auto image = decode_image(bytes, file.string());
+    return image_kind(bytes) == "PNG" && ends_as_png(bytes) ? bytes : encode_png(image);
+}
+
+void check_is_image(std::span<const std::uint8_t> bytes, const std::string& name) {
+    const auto kind = image_kind(bytes);
+    if (kind.empty() || kind == "PNG" || kind == "JPEG" || kind == "BMP") (void)decode_image(bytes, name);
 }
 
 }  // namespace mimik::io

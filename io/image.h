@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mimik::io {
@@ -23,12 +24,20 @@ struct Image {
 void write_png(const std::filesystem::path& file, const Image& image);
 [[nodiscard]] std::vector<std::uint8_t> encode_png(const Image& image);
 
-/// PNG or JPEG, by what the file begins with and not by its name. @throws InputError as read_png and decode_jpeg do.
+/// "PNG", "JPEG", "BMP", "TIFF", "GIF", ..., by what a file begins with; empty: no image that is known.
+[[nodiscard]] std::string_view image_kind(std::span<const std::uint8_t> bytes);
+
+/// PNG, JPEG or BMP, by what the file begins with and not by its name. @throws InputError as read_png, decode_jpeg and
+/// decode_bmp do; of other kinds it names the kind.
 [[nodiscard]] Image read_image(const std::filesystem::path& file);
+[[nodiscard]] Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name);
 /// Width and height from the header alone.
 [[nodiscard]] std::array<int, 2> image_size(const std::filesystem::path& file);
-/// For files that hold a PNG: a PNG as it is, a JPEG or a PNG without its last chunk encoded anew. All are decoded.
-/// @throws InputError as read_image.
+/// For files that hold a PNG: a PNG as it is, another image or a PNG without its last chunk encoded anew. All are
+/// decoded. @throws InputError as read_image.
 [[nodiscard]] std::vector<std::uint8_t> read_as_png(const std::filesystem::path& file);
+/// Before the bytes of a file are handed on as an image: decodes PNG, JPEG and BMP, and takes other kinds by what they
+/// begin with. @throws InputError naming it.
+void check_is_image(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace mimik::io

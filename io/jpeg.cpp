@@ -72,6 +72,16 @@ bool read_header(State& state, std::span<const std::uint8_t> bytes, std::array<i
     return true;
 }
 
+/// Four inks as light. Adobe's programs, and most others after them, store how much paper is left of each.
+void light_of_inks(const JSAMPLE* inks, bool stored_as_paper, JDIMENSION width, std::uint8_t* rgb) {
+    for (JDIMENSION i = 0; i < width; ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const unsigned ink = inks[std::size_t{4} * i + c], black = inks[std::size_t{4} * i + 3];
+            const unsigned light = stored_as_paper ? ink * black : (255 - ink) * (255 - black);
+            rgb[std::size_t{3} * i + c] = static_cast<std::uint8_t>((light + 127) / 255);
+        }
+}
+
 bool read_pixels(State& state, std::span<const std::uint8_t> bytes, std::uint8_t* rgb) {
     jpeg_decompress_struct info;
     std::memset(&info, 0, sizeof info);
@@ -81,11 +91,17 @@ bool read_pixels(State& state, std::span<const std::uint8_t> bytes, std::uint8_t
     }
     begin(info, state, bytes);
     jpeg_read_header(&info, TRUE);
-    info.out_color_space = JCS_RGB;
+    const bool inks = info.jpeg_color_space == JCS_CMYK || info.jpeg_color_space == JCS_YCCK;
+    const bool stored_as_paper = info.saw_Adobe_marker != 0;
+    info.out_color_space = inks ? JCS_CMYK : JCS_RGB;
     jpeg_start_decompress(&info);
+    JSAMPARRAY ink_row = nullptr;  // belongs to libjpeg
+    if (inks)
+        ink_row = info.mem->alloc_sarray(reinterpret_cast<j_common_ptr>(&info), JPOOL_IMAGE, 4 * info.output_width, 1);
     while (info.output_scanline < info.output_height) {
         JSAMPROW row = rgb + std::size_t{3} * info.output_width * info.output_scanline;
-        jpeg_read_scanlines(&info, &row, 1);
+        jpeg_read_scanlines(&info, inks ? ink_row : &row, 1);
+        if (inks) light_of_inks(ink_row[0], stored_as_paper, info.output_width, row);
     }
     jpeg_destroy_decompress(&info);
     return true;
@@ -94,7 +110,7 @@ bool read_pixels(State& state, std::span<const std::uint8_t> bytes, std::uint8_t
 [[noreturn]] void refuse(const std::string& name, const State& state) {
     if (state.errors.msg_code == JERR_CONVERSION_NOTIMPL)
         throw InputError(
-            fmt::format("{}: the JPEG's colours are neither RGB nor grey (CMYK, say); save it as RGB or PNG", name));
+            fmt::format("{}: the JPEG's colours are neither RGB, grey nor CMYK; save it as RGB or PNG", name));
     throw InputError(fmt::format("{}: the JPEG cannot be decoded ({}); it is truncated or damaged: save it anew", name,
                                  state.message));
 }

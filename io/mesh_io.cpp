@@ -14,6 +14,7 @@
 #include "io/formats/ply.h"
 #include "io/formats/stl.h"
 #include "io/formats/vtp.h"
+#include "io/mesh_textures.h"
 #include "io/texture_path.h"
 
 namespace mimik::io {
@@ -65,26 +66,6 @@ void drop_unmeasured(Mesh& mesh) {
     if (!mesh.colours.empty()) mesh.colours.resize(kept);
     for (auto& attribute : mesh.attributes)
         attribute.values.resize(kept * static_cast<std::size_t>(attribute.components));
-}
-
-/// The texture's name as it stands in the file becomes its path from the file's folder.
-void find_texture(MeshFile& content, MeshFormat format, const std::filesystem::path& file) {
-    if (content.texture_file.empty()) return;
-    if (format != MeshFormat::obj) {
-        content.texture_file = checked_texture_path(content.texture_file, file.string());
-        return;
-    }
-    const std::filesystem::path named = checked_texture_path(content.texture_file, file.string());
-    content.material_file = named.generic_string();
-    const auto material = file.parent_path() / named;
-    // A missing material file takes the texture away, not the mesh.
-    content.texture_file =
-        base::is_there(material)
-            ? formats::texture_of_material(base::read_text(material, std::uintmax_t{1} << 24), material.string())
-            : std::string();
-    if (!content.texture_file.empty())
-        content.texture_file =
-            (named.parent_path() / checked_texture_path(content.texture_file, material.string())).generic_string();
 }
 
 void check_parts_fit(const Mesh& mesh, const std::string& name) {
@@ -213,34 +194,47 @@ Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit) {
 MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit, MeshParts parts, BadTexture bad_texture) {
     const auto format = mesh_format(file);
     auto content = decode_mesh(format, base::read_bytes(file), file.string(), unit, parts);
-    try {
-        find_texture(content, format, file);
-    } catch (const InputError& e) {
-        if (bad_texture == BadTexture::refuse) throw;
-        content.texture_file.clear();
-        content.texture_error = e.what();
-    }
+    find_textures(content, format, file);
+    if (bad_texture == BadTexture::refuse && !content.texture_error.empty()) throw InputError(content.texture_error);
     return content;
 }
+
+namespace {
+
+MeshWriteOptions checked_options(const Mesh& mesh, const MeshWriteOptions& options, const std::string& name) {
+    auto checked = options;
+    if (checked.texture_files.empty() && !options.texture_file.empty()) checked.texture_files = {options.texture_file};
+    for (auto& texture : checked.texture_files) texture = checked_texture_name(texture, name);
+    auto& pictures = checked.face_textures;
+    if (checked.texture_files.empty()) pictures.clear();
+    if (!pictures.empty() && pictures.size() != mesh.faces.size())
+        throw InputError(
+            fmt::format("{}: not written: images of {} faces, of {}", name, pictures.size(), mesh.faces.size()));
+    for (const auto picture : pictures)
+        if (picture != no_picture && picture >= checked.texture_files.size())
+            throw InputError(
+                fmt::format("{}: not written: a face has image {} of {}", name, picture, checked.texture_files.size()));
+    return checked;
+}
+
+}  // namespace
 
 void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const MeshWriteOptions& options) {
     const auto format = mesh_format(file);
     check_parts_fit(mesh, file.string());
-    auto checked = options;
-    if (!options.texture_file.empty()) checked.texture_file = checked_texture_name(options.texture_file, file.string());
+    const auto checked = checked_options(mesh, options, file.string());
     switch (format) {
         case MeshFormat::ply:
             base::write_atomically(file, [&](std::ostream& out) { formats::encode_ply(out, mesh, checked); });
             return;
         case MeshFormat::obj: {
             std::string material;
-            if (!checked.texture_file.empty()) {
+            if (!checked.texture_files.empty()) {
                 material = file.stem().string() + ".mtl";
                 auto material_file = file;
-                base::write_atomically(material_file.replace_filename(material),
-                                       formats::material_with_texture(checked.texture_file));
+                base::write_atomically(material_file.replace_filename(material), formats::encode_materials(checked));
             }
-            base::write_atomically(file, [&](std::ostream& out) { formats::encode_obj(out, mesh, material); });
+            base::write_atomically(file, [&](std::ostream& out) { formats::encode_obj(out, mesh, checked, material); });
             return;
         }
         case MeshFormat::stl:
@@ -248,7 +242,7 @@ void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const MeshW
                                    [&](std::ostream& out) { formats::encode_stl(out, mesh, checked, file.string()); });
             return;
         case MeshFormat::vtp:
-            base::write_atomically(file, [&](std::ostream& out) { formats::encode_vtp(out, mesh); });
+            base::write_atomically(file, [&](std::ostream& out) { formats::encode_vtp(out, mesh, checked.made_by); });
             return;
         case MeshFormat::pcd:
             break;

@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "geometry/mesh.h"
 
@@ -33,28 +36,43 @@ enum class MeshParts { all, without_attributes };
 /// Whether a texture's name that cannot be used is an error, or said in MeshFile::texture_error and the surface read.
 enum class BadTexture { refuse, report };
 
+/// Of a face: it has no picture.
+inline constexpr std::uint32_t no_picture = std::numeric_limits<std::uint32_t>::max();
+
 /// What a file holds beside the surface.
 struct MeshFile {
     geometry::Mesh mesh;
-    std::string texture_file;        ///< image in the mesh's folder or below it ("tex/skin.png"); empty: none
-    std::string material_file = {};  ///< of an OBJ: its mtllib, likewise
-    std::string texture_error = {};  ///< as the error would say it
+    std::string texture_file;  ///< the image in the mesh's folder or below it ("tex/skin.png"); empty: none, or several
+    std::vector<std::string> texture_files = {};    ///< all images in use, likewise
+    std::vector<std::uint32_t> face_textures = {};  ///< which of them each face has, or no_picture; empty: the first
+    std::vector<std::string> material_files = {};   ///< of an OBJ: where its images stand, likewise; there or not
+    std::string texture_error = {};                 ///< of names that cannot be used, as the error would say it
+    std::vector<std::string> remarks = {};  ///< what was left out or taken otherwise than written, with the file
     int rows = 0;  ///< of a PCD with HEIGHT > 1, in the file's order; its NaN points are then still in `mesh`
     int cols = 0;
 };
-/// read_mesh with the name of the texture image (PLY: comment TextureFile; OBJ: map_Kd of its MTL) and a PCD's lattice.
-/// @throws InputError also where the texture's name leads out of the mesh's folder (BadTexture::refuse).
+/// read_mesh with the names of the texture images (PLY: comments TextureFile, faces' `texnumber`; OBJ: map_Kd of the
+/// materials in use) and a PCD's lattice. A name from another machine is looked for beside the mesh (find_beside); an
+/// OBJ's -s and -o are applied to the texture positions.
+/// @throws InputError also where a texture's name leads out of the mesh's folder and no such file is beside it
+/// (BadTexture::refuse).
 [[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre,
                                       MeshParts parts = MeshParts::all, BadTexture bad_texture = BadTexture::refuse);
 
-/// The same from memory; `name` stands for the file in messages. The texture name is as written (for OBJ: the name of
-/// the material file).
+/// The same from memory; `name` stands for the file in messages. Names of textures are as written: `texture_files` are
+/// those of a PLY, of an OBJ the names of its materials.
 [[nodiscard]] MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name,
                                    LengthUnit unit = LengthUnit::millimetre, MeshParts parts = MeshParts::all);
+
+/// What made a mesh: names and values, such as "source" and "bs003".
+using MadeBy = std::vector<std::pair<std::string, std::string>>;
 
 struct MeshWriteOptions {
     std::string texture_file;  ///< image beside the mesh, named in OBJ's MTL and PLY's comment; empty: none
     bool binary = true;        ///< PLY and STL; false: readable text
+    std::vector<std::string> texture_files = {};    ///< several images in place of texture_file
+    std::vector<std::uint32_t> face_textures = {};  ///< as in MeshFile
+    MadeBy made_by = {};                            ///< kept as comments (PLY, OBJ) or field data (VTP)
 };
 
 /// PLY (double precision, attributes as extra properties), OBJ (17 digits), STL (single precision, triangles), VTP

@@ -11,9 +11,11 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "geometry/landmark_spline.h"
+#include "io/image.h"
 #include "io/landmark_io.h"
 #include "io/mesh_io.h"
 #include "io/points_csv.h"
+#include "io/texture_path.h"
 
 namespace mimik::io {
 
@@ -40,11 +42,8 @@ bool takes_texture(const std::filesystem::path& output) {
     return !is_csv(output) && (mesh_format(output) == MeshFormat::ply || mesh_format(output) == MeshFormat::obj);
 }
 
-WarpInput read_input(const std::filesystem::path& input, const std::filesystem::path& output) {
-    if (!is_csv(input))
-        return {read_mesh_file(input, LengthUnit::millimetre, MeshParts::all,
-                               takes_texture(output) ? BadTexture::refuse : BadTexture::report),
-                {}};
+WarpInput read_input(const std::filesystem::path& input) {
+    if (!is_csv(input)) return {read_mesh_file(input, LengthUnit::millimetre, MeshParts::all, BadTexture::report), {}};
     auto table = read_points_csv(input);
     WarpInput result;
     result.file.mesh.vertices_mm = std::move(table.points);
@@ -52,26 +51,68 @@ WarpInput read_input(const std::filesystem::path& input, const std::filesystem::
     return result;
 }
 
-/// The image as one that belongs to the output, so that no other of its name is taken for it. @return its name; empty
-/// if there is no image.
-std::string copy_texture(const std::string& texture, const std::filesystem::path& folder,
-                         const std::filesystem::path& output, const CheckTexture& check_texture) {
-    if (texture.empty() || !base::is_there(folder / texture)) return {};
-    if (check_texture) check_texture(folder / texture);
-    const auto image = base::read_text(folder / texture);
-    const auto extension = std::filesystem::path(texture).extension().string();
-    const auto copy = output.parent_path() / (output.stem().string() + "_texture" + extension);
-    base::write_atomically(copy, image);
-    return copy.filename().string();
+/// An image that may be handed on: it lies with the mesh, also where links lead, and is one by its content.
+std::string checked_image(const std::filesystem::path& image, const std::filesystem::path& folder,
+                          const std::string& mesh) {
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(
+            fmt::format("{}: texture {} is left out: {}", mesh, base::in_quotes(image.filename().string()), why));
+    };
+    if (!base::is_there(image)) refuse("it is not beside the mesh; copy it there");
+    if (!lies_below(image, folder)) refuse("it is a link that leads out of the mesh's folder; copy the image there");
+    auto content = base::read_text(image);
+    try {
+        check_is_image({reinterpret_cast<const std::uint8_t*>(content.data()), content.size()}, image.string());
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}; the texture is left out", e.what()));
+    }
+    return content;
+}
+
+/// The images become ones that belong to the output, so that no other of their names is taken for them.
+void copy_textures(MeshFile& file, const std::filesystem::path& input, const std::filesystem::path& output,
+                   const CheckTexture& check_texture, MeshWriteOptions& options, std::vector<std::string>& remarks) {
+    const auto folder = input.parent_path();
+    std::vector<std::uint32_t> new_number;
+    for (const auto& texture : file.texture_files) {
+        new_number.push_back(no_picture);
+        const auto image = folder / texture;
+        if (check_texture && base::is_there(image)) check_texture(image);
+        std::string content;
+        try {
+            content = checked_image(image, folder, input.string());
+        } catch (const InputError& e) {
+            remarks.emplace_back(e.what());
+            continue;
+        }
+        const auto number = options.texture_files.size();
+        auto name = output.stem().string() + "_texture";
+        if (number > 0) name += fmt::format("_{}", number + 1);
+        name += std::filesystem::path(texture).extension().string();
+        base::write_atomically(output.parent_path() / name, content);
+        options.texture_files.push_back(std::move(name));
+        new_number.back() = static_cast<std::uint32_t>(number);
+    }
+    if (options.texture_files.size() < file.texture_files.size() && file.face_textures.empty())
+        file.face_textures.assign(file.mesh.faces.size(), 0);
+    options.face_textures = file.face_textures;
+    for (auto& picture : options.face_textures)
+        if (picture != no_picture) picture = new_number[picture];
 }
 
 void write_output(const std::filesystem::path& output, WarpInput warp, const std::filesystem::path& input,
-                  const CheckTexture& check_texture) {
+                  const CheckTexture& check_texture, MeshWriteOptions options, std::vector<std::string>& remarks) {
     auto& mesh = warp.file.mesh;
     if (!is_csv(output)) {
-        MeshWriteOptions options;
-        if (takes_texture(output))
-            options.texture_file = copy_texture(warp.file.texture_file, input.parent_path(), output, check_texture);
+        if (takes_texture(output)) {
+            if (!warp.file.texture_error.empty()) remarks.push_back(warp.file.texture_error);
+            copy_textures(warp.file, input, output, check_texture, options, remarks);
+        } else if (!warp.file.texture_files.empty()) {
+            remarks.push_back(
+                fmt::format("{}: the format names no image, so the texture is left out; .ply and .obj "
+                            "keep it",
+                            output.string()));
+        }
         write_mesh(output, mesh, options);
         return;
     }
@@ -95,9 +136,10 @@ void check_output_format(const std::filesystem::path& output) {
 
 WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::path& to,
                      const std::filesystem::path& input, const std::filesystem::path& output,
-                     const geometry::ThinPlateSplineOptions& options, const CheckTexture& check_texture) {
+                     const geometry::ThinPlateSplineOptions& options, const CheckTexture& check_texture,
+                     const MadeBy& made_by) {
     check_output_format(output);
-    auto warp = read_input(input, output);
+    auto warp = read_input(input);
     const auto& points = warp.file.mesh.vertices_mm;
     const auto source = read_landmarks(from), target = read_landmarks(to);
     const geometry::LandmarkPairs pairs(source, target);
@@ -123,7 +165,10 @@ WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::p
                             before[i].x(), before[i].y(), before[i].z()));
         report.largest_displacement = std::max(report.largest_displacement, moved);
     }
-    write_output(output, std::move(warp), input, check_texture);
+    report.remarks = std::move(warp.file.remarks);
+    MeshWriteOptions write_options;
+    write_options.made_by = made_by;
+    write_output(output, std::move(warp), input, check_texture, std::move(write_options), report.remarks);
     return report;
 }
 

@@ -8,6 +8,7 @@
 #include "geometry/landmarks.h"
 #include "geometry/mesh.h"
 #include "geometry/thin_plate_spline.h"
+#include "io/mesh_io.h"
 
 namespace mimik::io {
 
@@ -16,19 +17,23 @@ struct WarpReport {
     std::size_t points = 0;                ///< moved, in the input file
     double largest_landmark_residual = 0;  ///< |spline(from) - to|: rounding only, unless smoothing > 0
     double bending_energy = 0;
-    double largest_displacement = 0;  ///< of the points of the input
+    double largest_displacement = 0;        ///< of the points of the input
+    std::vector<std::string> remarks = {};  ///< what was left out of the output, and why
 };
 
 /// Warps a file: points as CSV (name,x,y,z) or a mesh (PLY, OBJ, STL, PCD, VTP), by extension, to a file of the same or
 /// another of these formats (not PCD). CSV keeps the names; points of a mesh get their number, from 0, as name. The
-/// texture image of an output face.ply or face.obj is copied beside it as face_texture.<ext>, the image's extension.
+/// texture images of an output face.ply or face.obj are copied beside it as face_texture.<ext>, face_texture_2.<ext>,
+/// ..., the image's extension. What is no image, or lies outside the input's folder where links lead, is not copied.
 /// @param from, to  landmark files in any form that read_landmarks knows, their coordinates taken as written.
+/// @param made_by  kept in the output mesh (MeshWriteOptions::made_by).
 /// @param check_texture  asked before the image that a mesh names is copied; throws to refuse it.
 /// @throws InputError listing every landmark that has no partner; NumericalError from the spline, and where the place
 /// of a point is not finite.
 WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::path& to,
                      const std::filesystem::path& input, const std::filesystem::path& output,
                      const geometry::ThinPlateSplineOptions& options = {},
-                     const std::function<void(const std::filesystem::path&)>& check_texture = {});
+                     const std::function<void(const std::filesystem::path&)>& check_texture = {},
+                     const MadeBy& made_by = {});
 
 }  // namespace mimik::io

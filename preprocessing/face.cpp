@@ -93,7 +93,21 @@ geometry::QuadGrid grid_size_from_json(const json& document) {
     return grid;
 }
 
+/// A face's own picture is written beside it; the .json names it without a folder, so that a workspace can be moved.
+std::string write_picture(const std::filesystem::path& stem, const Face& face) {
+    const auto own = with_suffix(stem, ".png");
+    if (face.picture)
+        io::write_png(own, *face.picture);
+    else if (face.texture_file != own) {
+        std::error_code ignored;
+        std::filesystem::remove(own, ignored);  // of another scan of this name
+        return face.texture_file.string();
+    }
+    return own.filename().string();
+}
+
 void write_face(const std::filesystem::path& stem, const Face& face) {
+    const auto texture_file = write_picture(stem, face);
     write_grid(with_suffix(stem, ".ply"), face.grid);
     const json document = {
         {"schema", 1},
@@ -107,7 +121,7 @@ void write_face(const std::filesystem::path& stem, const Face& face) {
         {"frame", "scanner: +x subject's left, +y up, +z out of the face"},
         {"landmarks", io::to_json(face.landmarks)},
         {"snapped_landmarks", io::to_json(face.snapped_landmarks)},
-        {"texture_file", face.texture_file.string()},
+        {"texture_file", texture_file},
         {"neutral_from_scan", io::to_json(face.neutral_from_scan)},
         {"average_from_scan", io::to_json(face.average_from_scan)},
         {"average_from_scan_affine", io::to_json(face.average_from_scan_affine)},
@@ -140,6 +154,7 @@ Face read_face(const std::filesystem::path& stem) {
     const auto file = with_suffix(stem, ".json");
     auto face = decode_face(base::read_text(file, io::most_json_bytes), file.string());
     face.grid = read_grid(with_suffix(stem, ".ply"), face.grid.rows, face.grid.cols);
+    if (face.texture_file == with_suffix(stem, ".png").filename()) face.texture_file = with_suffix(stem, ".png");
     return face;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "database/scan_id.h"
 #include "geometry/landmarks.h"
 #include "geometry/quad_grid.h"
+#include "io/image.h"
 
 namespace mimik::preprocessing {
 
@@ -19,7 +21,9 @@ struct Face {
     geometry::QuadGrid grid;                ///< scanner frame
     geometry::Landmarks landmarks;          ///< as marked, our names, scanner frame
     geometry::Landmarks snapped_landmarks;  ///< moved to the nearest grid vertex (thesis 5.4)
-    std::filesystem::path texture_file;     ///< of the scan; empty: none, or the grid has no texture coordinates
+    std::filesystem::path texture_file;     ///< of the scan, or the face's own <stem>.png; empty: none, or the grid has
+                                            ///< no texture coordinates
+    std::shared_ptr<const io::Image> picture = {};  ///< to be written as <stem>.png, in place of texture_file
 
     /// Rigid: brings the scan onto the subject's first neutral (identity for that one itself).
     geometry::Transform neutral_from_scan = geometry::Transform::Identity();
@@ -38,7 +42,8 @@ void write_grid(const std::filesystem::path& file, const geometry::QuadGrid& gri
 /// The same from a mesh that was read; `name` stands for its file. @throws InputError naming what does not fit.
 [[nodiscard]] geometry::QuadGrid to_grid(geometry::Mesh mesh, int rows, int cols, const std::string& name);
 
-/// `<stem>.ply` (grid, double precision, opens in any viewer) and `<stem>.json` (everything else, schema 1).
+/// `<stem>.ply` (grid, double precision, opens in any viewer), `<stem>.json` (everything else, schema 1) and, of a face
+/// with a picture of its own, `<stem>.png`.
 void write_face(const std::filesystem::path& stem, const Face& face);
 /// @throws InputError naming the file and what is wrong.
 [[nodiscard]] Face read_face(const std::filesystem::path& stem);

@@ -1,9 +1,15 @@
 #include "preprocessing/preprocess_scan.h"
 
+#include <algorithm>
+#include <memory>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "base/errors.h"
 #include "geometry/point_index.h"
+#include "io/image.h"
+#include "preprocessing/bake_texture.h"
 
 namespace mimik::preprocessing {
 
@@ -37,6 +43,37 @@ geometry::Landmarks snapped_landmarks(const Face& face) {
     return geometry::Landmarks(std::move(snapped));
 }
 
+/// The images of a scan; what cannot be read is said. Of one image it is the database's choice which.
+std::vector<std::optional<io::Image>> read_images(const database::LoadedScan& loaded,
+                                                  std::vector<std::string>& remarks) {
+    const auto& named = loaded.scan.charts->images;
+    std::vector<std::filesystem::path> files;
+    for (const auto& name : named) files.push_back(loaded.entry.scan_file.parent_path() / name);
+    if (files.size() < 2) files = {loaded.entry.texture_file};
+    std::vector<std::optional<io::Image>> images;
+    for (const auto& file : files) {
+        images.emplace_back();
+        try {
+            images.back() = io::read_image(file);
+        } catch (const InputError& e) {
+            remarks.push_back(fmt::format("a texture is left out: {}", e.what()));
+        }
+    }
+    return images;
+}
+
+/// Where the scan's texture has charts, a new picture takes its place.
+void give_picture(Face& face, const database::LoadedScan& loaded) {
+    const auto& charts = loaded.scan.charts;
+    if (!charts || face.texture_file.empty()) return;
+    const auto images = read_images(loaded, face.remarks);
+    face.texture_file.clear();
+    if (std::any_of(images.begin(), images.end(), [](const auto& image) { return image.has_value(); }))
+        face.picture = std::make_shared<const io::Image>(bake_texture(*charts, images, face.grid));
+    else
+        face.grid.texture_coordinates.clear();
+}
+
 }  // namespace
 
 void ScanSteps::check() const {
@@ -60,6 +97,7 @@ Face preprocess_scan(const database::LoadedScan& loaded, const ScanSteps& steps,
     GriddingReport gridded;
     face.grid = grid_scan(clean(loaded.scan, steps.cleaning, &cleaned), steps.gridding, &gridded);
     judge_cloud(gridded, loaded, face.remarks);
+    give_picture(face, loaded);
     if (const auto lost = cleaned.spikes + cleaned.stray_points; 20 * lost > cleaned.points)
         face.remarks.push_back(
             fmt::format("cleaning left out {} of {} points: {} spikes, and {} stray points in {} parts", lost,

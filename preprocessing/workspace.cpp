@@ -92,8 +92,8 @@ Face Workspace::face(const ScanId& id) const {
     };
     if (face.id != id) refuse(fmt::format("scan is {}", base::in_quotes(face.id.name())));
     // A workspace that came from elsewhere shall not reach other files.
-    if (const auto& texture = face.texture_file;
-        !texture.empty() && !lies_in(texture.lexically_normal(), database_root()))
+    if (const auto& texture = face.texture_file; !texture.empty() && texture != stem(id).string() + ".png" &&
+                                                 !lies_in(texture.lexically_normal(), database_root()))
         refuse(fmt::format("texture_file {} does not lie in the database {}", base::in_quotes(texture.string()),
                            database_root().string()));
     return face;

@@ -15,6 +15,7 @@
 #include "database/hidden_subjects.h"
 #include "io/json_values.h"
 #include "io/landmark_io.h"
+#include "io/texture_atlas.h"
 
 namespace mimik::report {
 
@@ -205,7 +206,10 @@ io::MeshFile read_face(const fs::path& file, io::LengthUnit unit) {
     constexpr auto report = io::BadTexture::report;
     if (!database::is_bnt(file)) return io::read_mesh_file(file, unit, io::MeshParts::all, report);
     const auto scan = database::read_bnt_scan(file, unit, report);
-    return {.mesh = lattice_mesh(scan), .texture_file = scan.texture_file, .texture_error = scan.texture_error};
+    io::MeshFile face{.mesh = lattice_mesh(scan), .texture_file = scan.texture_file};
+    if (!scan.texture_file.empty()) face.texture_files = {scan.texture_file};
+    face.texture_error = scan.texture_error;
+    return face;
 }
 
 std::vector<Point> positions(const fs::path& file, const geometry::Mesh& mesh, io::LengthUnit unit) {
@@ -225,6 +229,20 @@ Point point_at(const base::CsvReader& table, const std::array<std::size_t, 3>& c
 
 void refuse_one_too_many(const base::CsvReader& table, std::size_t count) {
     if (count >= most_marks) table.fail(fmt::format("more than {} lines; draw fewer", most_marks));
+}
+
+/// The image that a mesh names; several become one, and the mesh's texture positions go along.
+io::Image picture_of(const fs::path& file, const io::MeshFile& face, geometry::Mesh& mesh) {
+    if (!face.texture_error.empty()) throw InputError(face.texture_error);
+    if (face.texture_files.empty()) throw InputError(fmt::format("{}: names no texture; give one", file.string()));
+    std::vector<std::optional<io::Image>> images;
+    for (const auto& name : face.texture_files) {
+        const auto image = file.parent_path() / name;
+        database::refuse_hidden_file(image);
+        images.emplace_back(io::read_image(image));
+    }
+    if (face.face_textures.empty() || mesh.texture_coordinates.empty()) return std::move(*images.front());
+    return io::texture_atlas(mesh, images, face.face_textures);
 }
 
 Panel load_panel(const PanelDescription& description) {
@@ -249,12 +267,7 @@ Panel load_panel(const PanelDescription& description) {
     if (!description.texture.empty()) {
         panel.texture = io::read_image(description.texture);
     } else if (description.textured) {
-        if (!face.texture_error.empty()) throw InputError(face.texture_error);
-        if (face.texture_file.empty())
-            throw InputError(fmt::format("{}: names no texture; give one", description.mesh.string()));
-        const auto image = description.mesh.parent_path() / face.texture_file;
-        database::refuse_hidden_file(image);
-        panel.texture = io::read_image(image);
+        panel.texture = picture_of(description.mesh, face, panel.mesh);
     }
     if (!description.landmarks.empty())
         panel.markers.push_back({.name = "landmarks",

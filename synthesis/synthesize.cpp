@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/temporary.h"
 #include "database/bnt.h"
 #include "database/bosphorus_landmarks.h"
 #include "database/scan_id.h"
@@ -188,38 +189,27 @@ fs::path resolved(const fs::path& out) {
 class UnfinishedFolder {
 public:
     explicit UnfinishedFolder(fs::path place) : place_(std::move(place)) {
-        std::error_code error;
-        fs::create_directories(place_.parent_path(), error);
-        constexpr int most_tries = 1000;  // what is there under such a name is another's and stays
-        for (int k = 0; !error && k < most_tries; ++k) {
-            auto folder = place_;
-            folder += fmt::format(".{}-{}.part", ::getpid(), k);
-            if (!fs::create_directory(folder, error)) continue;
-            folder_ = std::move(folder);
-            return;
+        try {
+            fs::create_directories(place_.parent_path());
+            folder_.emplace(place_.parent_path());
+        } catch (const std::system_error& e) {
+            throw InputError(fmt::format("{}: no folder can be made there ({}); write elsewhere", place_.string(),
+                                         e.code().message()));
         }
-        throw InputError(fmt::format("{}: no folder can be made there ({}); write elsewhere", place_.string(),
-                                     error ? error.message() : "too many unfinished ones"));
     }
-    ~UnfinishedFolder() {
-        std::error_code ignored;
-        if (!folder_.empty()) fs::remove_all(folder_, ignored);
-    }
-    UnfinishedFolder(const UnfinishedFolder&) = delete;
-    UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
-
-    [[nodiscard]] const fs::path& path() const { return folder_; }
+    [[nodiscard]] const fs::path& path() const { return folder_->path(); }
     void finish() {
-        std::error_code error;
-        fs::rename(folder_, place_, error);  // an empty folder is replaced, one that was filled meanwhile is not
-        if (error)
+        try {
+            folder_->become(place_);  // an empty folder is replaced, one that was filled meanwhile is not
+        } catch (const std::system_error& e) {
             throw InputError(fmt::format("{}: the database cannot be put there ({}); give another folder",
-                                         place_.string(), error.message()));
-        folder_.clear();
+                                         place_.string(), e.code().message()));
+        }
     }
 
 private:
-    fs::path place_, folder_;
+    fs::path place_;
+    std::optional<base::TemporaryFolder> folder_;
 };
 
 }  // namespace

@@ -79,6 +79,13 @@ inline void load_column(Scalar type, bool swap, const std::uint8_t* at, std::siz
     });
 }
 
+/// A text for one line of a header: control characters as blanks.
+[[nodiscard]] inline std::string one_line(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+    return text;
+}
+
 /// A colour channel as files give it: bytes, or reals in [0, 1]. Out of range values are clamped, NaN is black.
 [[nodiscard]] inline std::uint8_t colour_byte(double value, double scale) {
     const double scaled = value * scale + 0.5;

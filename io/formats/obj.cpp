@@ -1,8 +1,10 @@
 #include "io/formats/obj.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,7 +20,13 @@ using geometry::Mesh;
 namespace {
 
 constexpr std::uint32_t no_texture = std::numeric_limits<std::uint32_t>::max();
-constexpr std::string_view material_name = "face";
+constexpr std::string_view material_name = "face", plain_material_name = "plain";
+constexpr std::size_t most_materials = 10'000, most_material_files = 64;
+
+/// "face", "face_2", ... as images are called.
+std::string numbered_material(std::size_t texture) {
+    return texture == 0 ? std::string(material_name) : fmt::format("{}_{}", material_name, texture + 1);
+}
 
 class ObjReader {
 public:
@@ -33,11 +41,14 @@ public:
                 read_texture_coordinate();
             else if (keyword == "f")
                 read_face();
-            else if (keyword == "mtllib" && file_.texture_file.empty())
-                file_.texture_file = base::trimmed(rest_);
+            else if (keyword == "usemtl")
+                use_material();
+            else if (keyword == "mtllib")
+                add_material_file();
         }
         finish_colours();
         finish_texture();
+        if (file_.texture_files.empty()) file_.face_textures.clear();
         return std::move(file_);
     }
 
@@ -107,6 +118,25 @@ private:
                                 *value, there_are));
     }
 
+    void use_material() {
+        std::string material(base::trimmed(rest_));
+        if (materials_.size() == most_materials && !materials_.contains(material))
+            lines_.fail(fmt::format("more than {} materials", most_materials));
+        const auto [entry, added] =
+            materials_.try_emplace(material, static_cast<std::uint32_t>(file_.texture_files.size()));
+        material_ = entry->second;
+        if (added) file_.texture_files.push_back(std::move(material));
+    }
+
+    void add_material_file() {
+        auto& files = file_.material_files;
+        std::string written(base::trimmed(rest_));
+        if (written.empty() || std::find(files.begin(), files.end(), written) != files.end()) return;
+        if (files.size() == most_material_files)
+            lines_.fail(fmt::format("more than {} material files", most_material_files));
+        files.push_back(std::move(written));
+    }
+
     void read_face() {
         auto& faces = file_.mesh.faces;
         std::size_t corners = 0;
@@ -137,6 +167,7 @@ private:
         }
         if (corners < 3) lines_.fail(fmt::format("a face has {} corners; it needs at least 3", corners));
         faces.first.push_back(static_cast<std::uint32_t>(faces.corners.size()));
+        file_.face_textures.push_back(material_);
     }
 
     void finish_colours() {
@@ -181,6 +212,8 @@ private:
     std::vector<std::array<double, 3>> colours_;
     std::uint32_t largest_vertex_ = 0, largest_texture_ = 0;
     std::size_t largest_vertex_line_ = 0, largest_texture_line_ = 0;
+    std::map<std::string, std::uint32_t> materials_;
+    std::uint32_t material_ = no_picture;  // of the faces that follow
     bool any_texture_ = false;
 };
 
@@ -190,26 +223,14 @@ MeshFile decode_obj(std::span<const std::uint8_t> bytes, const std::string& name
     return ObjReader(bytes, name).read();
 }
 
-std::string texture_of_material(std::string_view mtl, const std::string& name) {
-    base::LineReader lines(mtl, name);
-    while (lines.next()) {
-        std::string_view rest = lines.line();
-        if (!base::equal_ignoring_case(base::next_word(rest), "map_Kd")) continue;
-        // Options such as "-s 1 1 1" stand before the name, which is the rest of the line if there are none.
-        auto file = base::trimmed(rest);
-        if (file.starts_with('-')) {
-            const auto blank = file.find_last_of(" \t");
-            file = blank == std::string_view::npos ? file : file.substr(blank + 1);
-        }
-        if (!file.empty()) return std::string(file);
-    }
-    return {};
-}
-
-void encode_obj(std::ostream& out, const Mesh& mesh, const std::string& material_file) {
+void encode_obj(std::ostream& out, const Mesh& mesh, const MeshWriteOptions& options,
+                const std::string& material_file) {
     std::string text = "# lengths in millimetres\n";
     const auto into = std::back_inserter(text);
-    if (!material_file.empty()) text += fmt::format("mtllib {}\nusemtl {}\n", material_file, material_name);
+    for (const auto& [key, value] : options.made_by) fmt::format_to(into, "# {}: {}\n", key, one_line(value));
+    const auto& pictures = options.face_textures;
+    if (!material_file.empty()) text += fmt::format("mtllib {}\n", material_file);
+    if (!material_file.empty() && pictures.empty()) text += fmt::format("usemtl {}\n", material_name);
     for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
         const auto& p = mesh.vertices_mm[i];
         fmt::format_to(into, "v {:.17g} {:.17g} {:.17g}", p.x(), p.y(), p.z());
@@ -222,6 +243,10 @@ void encode_obj(std::ostream& out, const Mesh& mesh, const std::string& material
     for (const auto& t : mesh.texture_coordinates) fmt::format_to(into, "vt {:.17g} {:.17g}\n", t.x(), t.y());
     const auto& texture = mesh.faces.texture_corners.empty() ? mesh.faces.corners : mesh.faces.texture_corners;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        if (!pictures.empty() && (f == 0 || pictures[f] != pictures[f - 1]))
+            fmt::format_to(
+                into, "usemtl {}\n",
+                pictures[f] == no_picture ? std::string(plain_material_name) : numbered_material(pictures[f]));
         text += 'f';
         for (auto k = mesh.faces.first[f]; k < mesh.faces.first[f + 1]; ++k) {
             if (mesh.texture_coordinates.empty())
@@ -234,8 +259,15 @@ void encode_obj(std::ostream& out, const Mesh& mesh, const std::string& material
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
 }
 
-std::string material_with_texture(const std::string& texture_file) {
-    return fmt::format("newmtl {}\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd {}\n", material_name, texture_file);
+std::string encode_materials(const MeshWriteOptions& options) {
+    std::string text;
+    for (std::size_t k = 0; k < options.texture_files.size(); ++k)
+        text += fmt::format("newmtl {}\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd {}\n", numbered_material(k),
+                            options.texture_files[k]);
+    if (std::find(options.face_textures.begin(), options.face_textures.end(), no_picture) !=
+        options.face_textures.end())
+        text += fmt::format("newmtl {}\nKd 0.8 0.62 0.53\nKs 0 0 0\nillum 1\n", plain_material_name);
+    return text;
 }
 
 }  // namespace mimik::io::formats

@@ -24,6 +24,7 @@ namespace {
 // A header beyond these is no mesh, and each entry costs memory before the data is looked at.
 constexpr std::size_t most_elements = 100;
 constexpr std::size_t most_properties = 1000;
+constexpr std::size_t most_textures = 1000;
 
 struct Property {
     std::string name;
@@ -57,7 +58,7 @@ enum class Encoding { ascii, little, big };
 struct Header {
     Encoding encoding = Encoding::ascii;
     std::vector<Element> elements;
-    std::string texture_file;
+    std::vector<std::string> texture_files;
 };
 
 std::optional<Scalar> parse_type(std::string_view word) {
@@ -131,7 +132,10 @@ Header parse_header(base::LineReader& lines) {
                                        base::in_quotes(encoding)));
             format_seen = true;
         } else if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) {
-            if (base::next_word(rest) == "TextureFile") header.texture_file = base::trimmed(rest);
+            if (base::next_word(rest) != "TextureFile" || base::trimmed(rest).empty()) continue;
+            if (header.texture_files.size() == most_textures)
+                lines.fail(fmt::format("more than {} texture files", most_textures));
+            header.texture_files.emplace_back(base::trimmed(rest));
         } else if (keyword == "element") {
             Element element;
             element.name = base::next_word(rest);
@@ -365,8 +369,14 @@ void direct_vertices(Element& vertices, Mesh& mesh, ColourColumns& colours, cons
     }
 }
 
+/// Which image each face has, while it is read.
+struct TextureNumbers {
+    std::vector<double> of_row;
+    std::vector<std::size_t> row_of_face;
+};
+
 void direct_faces(Element& element, std::size_t vertex_count, Mesh& mesh,
-                  std::vector<TextureCoordinate>& corner_texture, const std::string& name) {
+                  std::vector<TextureCoordinate>& corner_texture, TextureNumbers& textures, const std::string& name) {
     auto* indices = element.find("vertex_indices");
     if (!indices) indices = element.find("vertex_index");
     if (!indices || !indices->count_type) {
@@ -375,7 +385,12 @@ void direct_faces(Element& element, std::size_t vertex_count, Mesh& mesh,
     }
     mesh.faces.first.reserve(element.count + 1);
     mesh.faces.corners.reserve(3 * element.count);
-    indices->list = [&mesh, vertex_count, name](std::size_t row, std::span<const double> corners) {
+    if (auto* number = element.find("texnumber"); number && !number->count_type) {
+        textures.of_row.resize(element.count);
+        number->column = textures.of_row.data();
+        number->column_stride = 1;
+    }
+    indices->list = [&mesh, &textures, vertex_count, name](std::size_t row, std::span<const double> corners) {
         if (corners.size() < 3)
             throw InputError(
                 fmt::format("{}: face {} has {} corners; a face needs at least 3", name, row, corners.size()));
@@ -386,11 +401,37 @@ void direct_faces(Element& element, std::size_t vertex_count, Mesh& mesh,
             mesh.faces.corners.push_back(static_cast<std::uint32_t>(corner));
         }
         mesh.faces.first.push_back(static_cast<std::uint32_t>(mesh.faces.corners.size()));
+        if (!textures.of_row.empty()) textures.row_of_face.push_back(row);
     };
     if (auto* texture = element.find("texcoord"); texture && texture->count_type)
         texture->list = [&corner_texture](std::size_t, std::span<const double> uv) {
             for (std::size_t k = 0; k + 1 < uv.size(); k += 2) corner_texture.emplace_back(uv[k], uv[k + 1]);
         };
+}
+
+/// Faces whose number is that of no image have no picture.
+void take_textures(const TextureNumbers& numbers, std::vector<std::string> images, MeshFile& file,
+                   const std::string& name) {
+    file.texture_files = std::move(images);
+    const auto count = file.texture_files.size();
+    if (count == 1 && numbers.of_row.empty()) file.texture_file = file.texture_files.front();
+    if (count > 1 && numbers.of_row.empty())
+        file.remarks.push_back(
+            fmt::format("{}: names {} images and no 'texnumber' says which face has which; the first is taken for all",
+                        name, count));
+    if (count == 0 || numbers.of_row.empty()) return;
+    std::size_t without = 0;
+    for (const auto row : numbers.row_of_face) {
+        const double number = numbers.of_row[row];
+        const bool known = number >= 0 && number < static_cast<double>(count) && number == std::floor(number);
+        file.face_textures.push_back(known ? static_cast<std::uint32_t>(number) : no_picture);
+        without += known || number == -1 ? 0 : 1;
+    }
+    if (without > 0)
+        file.remarks.push_back(
+            fmt::format("{}: 'texnumber' of {} faces is that of no image (there are {}); they have no "
+                        "picture",
+                        name, without, count));
 }
 
 }  // namespace
@@ -399,7 +440,6 @@ MeshFile decode_ply(std::span<const std::uint8_t> bytes, const std::string& name
     base::LineReader lines(as_text(bytes), name);
     auto header = parse_header(lines);
     MeshFile file;
-    file.texture_file = header.texture_file;
     std::size_t vertex_count = 0;
     bool vertices_seen = false;
     std::set<std::string> names;
@@ -415,18 +455,20 @@ MeshFile decode_ply(std::span<const std::uint8_t> bytes, const std::string& name
 
     ColourColumns colours;
     std::vector<TextureCoordinate> corner_texture;
+    TextureNumbers textures;
     std::size_t offset = lines.offset();
     for (auto& element : header.elements) {
         const bool ascii = header.encoding == Encoding::ascii;
         check_count(element, header.encoding, ascii ? lines.bytes_left() : bytes.size() - offset, name);
         if (element.name == "vertex") direct_vertices(element, file.mesh, colours, name);
-        if (element.name == "face") direct_faces(element, vertex_count, file.mesh, corner_texture, name);
+        if (element.name == "face") direct_faces(element, vertex_count, file.mesh, corner_texture, textures, name);
         if (ascii)
             read_ascii(element, lines);
         else
             offset = read_binary(element, bytes, offset, header.encoding == Encoding::big, name);
     }
 
+    take_textures(textures, std::move(header.texture_files), file, name);
     if (!colours.channels[0].empty()) {
         file.mesh.colours.resize(vertex_count);
         for (std::size_t c = 0; c < 3; ++c)
@@ -486,7 +528,8 @@ void encode_ply(std::ostream& out, const Mesh& mesh, const MeshWriteOptions& opt
 
     std::string text = fmt::format("ply\nformat {} 1.0\ncomment lengths in millimetres\n",
                                    options.binary ? "binary_little_endian" : "ascii");
-    if (!options.texture_file.empty()) text += fmt::format("comment TextureFile {}\n", options.texture_file);
+    for (const auto& [key, value] : options.made_by) text += fmt::format("comment {}: {}\n", key, one_line(value));
+    for (const auto& texture : options.texture_files) text += fmt::format("comment TextureFile {}\n", texture);
     text += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
                         mesh.vertices_mm.size());
     if (!mesh.colours.empty()) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -497,6 +540,7 @@ void encode_ply(std::ostream& out, const Mesh& mesh, const MeshWriteOptions& opt
         text += fmt::format("element face {}\nproperty list {} int vertex_indices\n", mesh.faces.size(),
                             wide ? "int" : "uchar");
         if (corner_texture) text += fmt::format("property list {} double texcoord\n", wide_texture ? "int" : "uchar");
+        if (!options.face_textures.empty()) text += "property int texnumber\n";
     }
     text += "end_header\n";
 
@@ -513,6 +557,13 @@ void encode_ply(std::ostream& out, const Mesh& mesh, const MeshWriteOptions& opt
             append(text, static_cast<std::uint8_t>(value));
         else
             append(text, static_cast<std::int32_t>(value));
+    };
+    const auto number_of_texture = [&](std::uint32_t texture) {
+        const auto value = texture == no_picture ? -1 : static_cast<std::int32_t>(texture);
+        if (options.binary)
+            append(text, value);
+        else
+            fmt::format_to(std::back_inserter(text), "{} ", value);
     };
     const auto end_row = [&] {
         if (!options.binary) text.back() = '\n';
@@ -540,6 +591,7 @@ void encode_ply(std::ostream& out, const Mesh& mesh, const MeshWriteOptions& opt
                      mesh.texture_coordinates[mesh.faces.texture_corners[mesh.faces.first[f] + k]])
                     number(coordinate);
         }
+        if (!options.face_textures.empty()) number_of_texture(options.face_textures[f]);
         end_row();
     }
     out.write(text.data(), static_cast<std::streamsize>(text.size()));

@@ -435,6 +435,16 @@ std::string escaped(const std::string& text) {
     return out;
 }
 
+/// A text as VTK has it in a file: the codes of its bytes, closed by a zero.
+std::string string_array(const std::string& name, const std::string& text) {
+    auto xml = fmt::format(
+        "<Array type=\"String\" Name=\"{}\" NumberOfComponents=\"1\" NumberOfTuples=\"1\" "
+        "format=\"ascii\">\n",
+        escaped(name));
+    for (const char c : text) xml += fmt::format("{} ", static_cast<int>(static_cast<unsigned char>(c)));
+    return xml + "0\n</Array>\n";
+}
+
 /// Builds the XML and the appended bytes side by side.
 class Appender {
 public:
@@ -467,7 +477,7 @@ MeshFile decode_vtp(std::span<const std::uint8_t> bytes, const std::string& name
     return VtpReader(bytes, name, parts).read();
 }
 
-void encode_vtp(std::ostream& out, const Mesh& mesh) {
+void encode_vtp(std::ostream& out, const Mesh& mesh, const MadeBy& made_by) {
     const auto n = mesh.vertices_mm.size();
     const bool corner_texture = !mesh.faces.texture_corners.empty();
     const bool vertex_texture = !mesh.texture_coordinates.empty() && !corner_texture;
@@ -477,14 +487,15 @@ void encode_vtp(std::ostream& out, const Mesh& mesh) {
     xml =
         "<?xml version=\"1.0\"?>\n<!-- lengths in millimetres -->\n"
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n";
+    if (corner_texture || !made_by.empty()) xml += "<FieldData>\n";
+    for (const auto& [key, value] : made_by) xml += string_array(key, value);
     if (corner_texture) {
-        xml += "<FieldData>\n";
         arrays.add<double>(texture_array, "Float64", 2, flattened(mesh.texture_coordinates),
                            mesh.texture_coordinates.size());
         arrays.add<std::int64_t>(texture_corner_array, "Int64", 1, mesh.faces.texture_corners,
                                  mesh.faces.texture_corners.size());
-        xml += "</FieldData>\n";
     }
+    if (corner_texture || !made_by.empty()) xml += "</FieldData>\n";
     xml += fmt::format(
         "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
         "NumberOfPolys=\"{}\">\n",

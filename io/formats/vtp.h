@@ -14,7 +14,7 @@ namespace mimik::io::formats {
                                   MeshParts parts = MeshParts::all);
 
 /// Appended raw arrays in double precision, which VTK and ParaView open. Texture positions per corner, which VTK has no
-/// place for, go into field data.
-void encode_vtp(std::ostream& out, const geometry::Mesh& mesh);
+/// place for, go into field data, and so does `made_by`, a string array of one value for each of its names.
+void encode_vtp(std::ostream& out, const geometry::Mesh& mesh, const MadeBy& made_by = {});
 
 }  // namespace mimik::io::formats

@@ -1,6 +1,7 @@
 #include "base/file.h"
 
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <locale>
 #include <stdexcept>
@@ -11,6 +12,8 @@
 #include <unistd.h>
 
 #include "base/errors.h"
+#include "base/output_folder.h"
+#include "base/temporary.h"
 
 namespace mimik::base {
 namespace {
@@ -117,6 +120,63 @@ TEST_F(File, of_a_long_file_the_head_is_read_and_of_a_short_one_the_whole) {
     write_atomically(file, "short");
     EXPECT_EQ(read_text_head(file, 1001), "short");
     EXPECT_THAT(input_error([&] { (void)read_text_head(folder_, 10); }), HasSubstr("is a folder"));
+}
+
+TEST_F(File, a_name_with_a_line_break_is_refused_before_anything_is_written) {
+    for (const auto* name : {"a\nb.ply", "a\x1b[31m.ply", "a\x7f"})
+        EXPECT_THAT(input_error([&] { write_atomically(folder_ / name, "x"); }), HasSubstr("control character")) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder_));
+}
+
+TEST_F(File, a_link_is_written_through_only_where_that_is_asked_for) {
+    write_atomically(folder_ / "store" / "real", "old");
+    std::filesystem::create_symlink("store/real", folder_ / "link");
+    std::filesystem::create_symlink("link", folder_ / "link2");
+    EXPECT_EQ(where_links_lead(folder_ / "link2"), folder_ / "store" / "real");
+    write_atomically(where_links_lead(folder_ / "link2"), "new");
+    EXPECT_EQ(read_text(folder_ / "store" / "real"), "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "link"));
+    write_atomically(folder_ / "link", "own");
+    EXPECT_FALSE(std::filesystem::is_symlink(folder_ / "link"));
+    EXPECT_EQ(read_text(folder_ / "store" / "real"), "new");
+    std::filesystem::create_symlink("loop", folder_ / "loop");
+    EXPECT_THAT(input_error([&] { (void)where_links_lead(folder_ / "loop"); }), HasSubstr("leads nowhere"));
+    EXPECT_EQ(where_links_lead(folder_ / "not there"), folder_ / "not there");
+}
+
+TEST_F(File, a_folder_is_tried_without_touching_what_is_there) {
+    write_atomically(folder_ / "mimik.probe", "somebody's");
+    check_takes_files(folder_);
+    EXPECT_EQ(read_text(folder_ / "mimik.probe"), "somebody's");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
+}
+
+TEST_F(File, what_a_killed_writer_left_is_removed_and_what_lives_stays) {
+    std::filesystem::create_directories(folder_);
+    const TemporaryFile living(folder_);
+    const TemporaryFolder living_folder(folder_);
+    for (const auto* name : {".mimik-0123456789abcdef.part", ".mimik-0123456789ABCDEF.part", ".mimik-0123.part", "x.part"})
+        std::ofstream(folder_ / name) << "left";
+    std::filesystem::create_directories(folder_ / ".mimik-00000000ffffffff.part" / "bs000");
+    std::ofstream(folder_ / "target") << "kept";
+    std::filesystem::create_symlink("target", folder_ / ".mimik-1111111111111111.part");
+    remove_leftovers(folder_);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / ".mimik-0123456789abcdef.part"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / ".mimik-00000000ffffffff.part"));
+    for (const auto* name : {".mimik-0123456789ABCDEF.part", ".mimik-0123.part", "x.part", "target"})
+        EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;  // not ours
+    EXPECT_TRUE(std::filesystem::exists(living.path()));
+    EXPECT_TRUE(std::filesystem::exists(living_folder.path()));
+}
+
+TEST_F(File, a_temporary_without_a_name_is_nobody_elses_and_goes_with_its_writer) {
+    std::filesystem::create_directories(folder_);
+    TemporaryFile file(folder_);
+    file.lose_name();
+    if (file.path().parent_path() == folder_) GTEST_SKIP() << "no /proc here";
+    EXPECT_TRUE(std::filesystem::is_empty(folder_));
+    std::ofstream(file.path()) << "rows";
+    EXPECT_EQ(read_text(file.path()), "rows");
 }
 
 }  // namespace

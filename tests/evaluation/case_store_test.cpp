@@ -86,9 +86,9 @@ TEST(CaseStore, that_was_cut_short_or_damaged_counts_up_to_the_last_whole_unit) 
 
 TEST(CaseStore, that_cannot_be_written_is_refused_by_its_name) {
     const database::TemporaryFolder folder;
-    std::filesystem::create_directories(folder.path() / "cases.csv.part");
-    EXPECT_THAT(database::message_of<InputError>([&] { const CaseStore store(folder.path() / "cases.csv"); }),
-                HasSubstr("cases.csv.part: cannot be written"));
+    base::write_atomically(folder.path() / "file", "no folder");
+    EXPECT_THAT(database::message_of<InputError>([&] { const CaseStore store(folder.path() / "file" / "cases.csv"); }),
+                HasSubstr("cases.csv: cannot be written"));
 }
 
 }  // namespace

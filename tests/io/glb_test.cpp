@@ -162,6 +162,41 @@ TEST(Glb, a_vertex_on_a_texture_seam_becomes_several_with_one_normal) {
     EXPECT_EQ(glb.texture_coordinates[3], TextureCoordinate(0.5, 0.5));
 }
 
+TEST(Glb, a_mesh_far_from_the_origin_stands_in_a_node_that_carries_the_offset) {
+    auto near = sheet(), far = sheet();
+    const Vector offset_mm(4.5e8, -5e8, 12345.0);  // as surveys have it
+    for (auto& p : far.positions_mm) p += offset_mm;
+    const auto near_bytes = encode_glb(near), far_bytes = encode_glb(far);
+    const auto near_glb = split(near_bytes), far_glb = split(far_bytes);
+    EXPECT_FALSE(near_glb.json["nodes"][0].contains("translation"));
+    const auto translation = far_glb.json["nodes"][0]["translation"].get<std::array<double, 3>>();
+    const auto positions = [](const Chunks& glb) {
+        const auto& accessor = glb.json["accessors"][glb.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]
+                                                         .get<std::size_t>()];
+        const auto& view = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+        const auto* at = glb.binary.data() + view["byteOffset"].get<std::size_t>();
+        std::vector<double> values;
+        for (std::size_t k = 0; k < 3 * accessor["count"].get<std::size_t>(); ++k)
+            values.push_back(formats::load<float>(at + 4 * k));
+        return values;
+    };
+    const auto here = positions(near_glb), there = positions(far_glb);
+    ASSERT_EQ(here.size(), there.size());
+    for (std::size_t k = 0; k < here.size(); ++k)
+        EXPECT_NEAR(translation[k % 3] + there[k], here[k] + offset_mm[static_cast<Eigen::Index>(k % 3)] * 1e-3, 2e-7);
+}
+
+TEST(Glb, a_texture_repeats_where_positions_leave_the_unit_square_and_nowhere_else) {
+    const auto wrap = [](const GlbMesh& mesh) {
+        const auto bytes = encode_glb(mesh);
+        return split(bytes).json["samplers"][0]["wrapT"].get<int>();
+    };
+    auto mesh = textured_mesh();
+    EXPECT_EQ(wrap(mesh), 33071);  // clamped to the edge
+    for (auto& uv : mesh.texture_coordinates) uv.y() -= 1;
+    EXPECT_EQ(wrap(mesh), 10497);  // repeat
+}
+
 TEST(Glb, errors_name_the_mesh_and_the_part) {
     const auto refused = [](auto change) {
         auto mesh = textured_mesh();

@@ -77,7 +77,7 @@ TEST(Png, errors_name_the_file_and_what_is_wrong) {
     };
     const auto bytes = encode_png(gradient(64, 64));
     const std::string good(bytes.begin(), bytes.end());
-    EXPECT_THAT(refused("JFIF"), HasSubstr("a.png: is neither a PNG nor a JPEG image"));
+    EXPECT_THAT(refused("JFIF"), HasSubstr("a.png: is no PNG image"));
     EXPECT_THAT(refused(good.substr(0, good.size() / 2)),
                 HasSubstr("a.png: the PNG cannot be decoded (the file ends inside its data)"));
     auto damaged = good;
@@ -98,6 +98,77 @@ TEST(Png, errors_name_the_file_and_what_is_wrong) {
     EXPECT_THAT(message_of([] { (void)read_png("/nowhere/a.png"); }), HasSubstr("/nowhere/a.png"));
     EXPECT_THAT(message_of([] { (void)image_size("/nowhere/a.png"); }), HasSubstr("/nowhere/a.png"));
     EXPECT_THAT(message_of([] { (void)encode_png({3, 3, {1, 2}}); }), HasSubstr("3 x 3 pixels with 2 bytes"));
+}
+
+/// A bitmap of 2 x 2: red, green above blue, white; `info` is the header behind the file's own, `pixels` from below.
+std::string bmp_of(const std::string& info, const std::string& pixels) {
+    std::string bytes = "BM";
+    const auto append = [&](std::uint32_t value) {
+        for (int k = 0; k < 4; ++k) bytes += static_cast<char>(value >> (8 * k) & 0xFFU);
+    };
+    append(0);
+    append(0);
+    append(static_cast<std::uint32_t>(14 + info.size()));
+    return bytes + info + pixels;
+}
+
+std::string bmp_info(int width, int height, int bits, int compression = 0, const std::string& tail = {}) {
+    std::string bytes;
+    const auto append = [&](int value, int count) {
+        for (int k = 0; k < count; ++k) bytes += static_cast<char>(static_cast<unsigned>(value) >> (8 * k) & 0xFFU);
+    };
+    append(40, 4);
+    append(width, 4);
+    append(height, 4);
+    append(1, 2);
+    append(bits, 2);
+    append(compression, 4);
+    for (int k = 0; k < 5; ++k) append(0, 4);
+    return bytes + tail;
+}
+
+TEST(Bmp, of_any_depth_becomes_8_bit_rgb) {
+    const std::vector<std::uint8_t> colours = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
+    const auto decoded = [](const std::string& bmp) { return decode_image(bytes_of(bmp), "a.bmp").rgb; };
+    using namespace std::string_literals;
+    const auto blue = "\xFF\0\0"s, green = "\0\xFF\0"s, red = "\0\0\xFF"s, white = "\xFF\xFF\xFF"s, zero = "\0"s;
+    const auto pad = "\0\0"s;
+    EXPECT_EQ(decoded(bmp_of(bmp_info(2, 2, 24), blue + white + pad + red + green + pad)), colours);
+    EXPECT_EQ(decoded(bmp_of(bmp_info(2, -2, 24), red + green + pad + blue + white + pad)), colours);  // from above
+    EXPECT_EQ(decoded(bmp_of(bmp_info(2, 2, 32), blue + zero + white + "\7" + red + zero + green + zero)), colours);
+    EXPECT_EQ(decoded(bmp_of(bmp_info(2, 2, 32, 3, "\xFF\0\0\0\0\xFF\0\0\0\0\xFF\0"s),
+                             "\0\0\xFF\0\xFF\xFF\xFF\0\xFF\0\0\0\0\xFF\0\0"s)),
+              colours);
+    EXPECT_EQ(decoded(bmp_of(bmp_info(2, 2, 16), "\x1F\0\xFF\x7F\0\x7C\xE0\3"s)), colours);
+    auto palette = std::string(1024, '\0');
+    palette.replace(0, 16, red + zero + green + zero + blue + zero + white + zero);
+    EXPECT_EQ(decoded(bmp_of(bmp_info(2, 2, 8, 0, palette), "\2\3\0\0\0\1\0\0"s)), colours);
+    EXPECT_EQ(decoded(bmp_of(bmp_info(2, 2, 4, 0, palette.substr(0, 64)), "\x23\0\0\0\x01\0\0\0"s)), colours);
+    EXPECT_EQ(decoded(bmp_of("\x0C\0\0\0\2\0\2\0\1\0\x18\0"s, blue + white + pad + red + green + pad)), colours);
+}
+
+TEST(Bmp, errors_name_the_file_and_what_is_wrong) {
+    const auto refused = [](const std::string& bmp) {
+        return message_of([&] { (void)decode_image(bytes_of(bmp), "a.bmp"); });
+    };
+    EXPECT_THAT(refused(bmp_of(bmp_info(2, 2, 24), "12345678")), HasSubstr("a.bmp: width x height is 2 x 2, but the file"));
+    EXPECT_THAT(refused(bmp_of(bmp_info(2, 2, 8, 1, std::string(1024, 'x')), "12345678")), HasSubstr("is compressed"));
+    EXPECT_THAT(refused(bmp_of(bmp_info(0, 2, 24), "")), HasSubstr("the image is empty"));
+    EXPECT_THAT(refused(bmp_of(bmp_info(20000, -20000, 24), "")), HasSubstr("more than the 100 million pixels"));
+    EXPECT_THAT(refused(bmp_of(bmp_info(2, 2, 8), "")), HasSubstr("ends inside its palette"));
+    EXPECT_THAT(refused("BM"), HasSubstr("ends inside its header"));
+}
+
+TEST(Images, of_kinds_that_are_not_read_are_named) {
+    const auto refused = [](std::string_view bytes) {
+        return message_of([&] { (void)decode_image(bytes_of(bytes), "a.x"); });
+    };
+    EXPECT_THAT(refused(std::string_view("II*\0....", 8)), HasSubstr("a.x: is a TIFF image, which is not read; save it"));
+    EXPECT_THAT(refused(std::string_view("MM\0*....", 8)), HasSubstr("is a TIFF image"));
+    EXPECT_THAT(refused("GIF89a.."), HasSubstr("is a GIF image"));
+    EXPECT_THAT(refused(std::string_view("RIFF\0\0\0\0WEBPVP8 ", 16)), HasSubstr("is a WebP image"));
+    EXPECT_THAT(refused("-----BEGIN"), HasSubstr("a.x: is neither a PNG, a JPEG nor a BMP image"));
+    EXPECT_THAT(refused(""), HasSubstr("is neither"));
 }
 
 TEST(Png, what_is_handed_on_is_a_whole_image) {

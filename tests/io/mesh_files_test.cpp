@@ -349,9 +349,9 @@ TEST(MeshFiles, a_texture_name_that_leads_out_of_the_folder_is_refused) {
     EXPECT_THAT(message_of([&] { (void)read_mesh_file(folder / "a.obj"); }),
                 HasSubstr("a.mtl: texture name is '../../x.png'"));
     EXPECT_EQ(read_mesh(folder / "a.obj").vertices_mm.size(), 1U);
-    base::write_atomically(folder / "b.obj", "mtllib ../a.mtl\nv 0 0 0\n");
+    base::write_atomically(folder / "b.obj", "mtllib ../b.mtl\nv 0 0 0\n");
     EXPECT_THAT(message_of([&] { (void)read_mesh_file(folder / "b.obj"); }),
-                HasSubstr("b.obj: texture name is '../a.mtl'"));
+                HasSubstr("b.obj: texture name is '../b.mtl'"));
 }
 
 TEST(MeshFiles, a_texture_name_that_cannot_be_used_leaves_the_surface_on_request) {
@@ -361,7 +361,7 @@ TEST(MeshFiles, a_texture_name_that_cannot_be_used_leaves_the_surface_on_request
     const auto file = read_mesh_file(folder / "a.obj", LengthUnit::millimetre, MeshParts::all, BadTexture::report);
     EXPECT_EQ(file.mesh.vertices_mm.size(), 1U);
     EXPECT_EQ(file.texture_file, "");
-    EXPECT_EQ(file.material_file, "a.mtl");
+    EXPECT_THAT(file.material_files, ElementsAre("a.mtl"));
     EXPECT_THAT(file.texture_error, HasSubstr("a.mtl: texture name is 'C:\\scans\\face.jpg'; put the image"));
 }
 

@@ -11,6 +11,7 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "geometry/landmark_spline.h"
+#include "io/image.h"
 #include "io/mesh_io.h"
 #include "io/points_csv.h"
 #include "tests/support/thrown.h"
@@ -100,13 +101,13 @@ TEST_F(Warp, takes_the_texture_image_along_under_a_name_that_no_other_image_has)
     base::write_atomically(
         at("in.obj"), "mtllib in.mtl\nv 2 2 2\nv 4 0 0\nv 4 4 4\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl skin\nf 1/1 2/2 3/3\n");
     base::write_atomically(at("in.mtl"), "newmtl skin\nmap_Kd tex/skin.png\n");
-    base::write_atomically(at("tex/skin.png"), "not decoded here");
+    write_png(at("tex/skin.png"), {1, 1, {200, 120, 90}});
     base::write_atomically(at("elsewhere/skin.png"), "somebody else's");
     for (const auto* name : {"elsewhere/out.obj", "elsewhere/out.ply"}) {
         (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at(name));
         EXPECT_EQ(read_mesh_file(at(name)).texture_file, "out_texture.png") << name;
     }
-    EXPECT_EQ(base::read_text(at("elsewhere/out_texture.png")), "not decoded here");
+    EXPECT_EQ(base::read_text(at("elsewhere/out_texture.png")), base::read_text(at("tex/skin.png")));
     EXPECT_EQ(base::read_text(at("elsewhere/skin.png")), "somebody else's");
     const auto nobody = [](const std::filesystem::path& image) { throw InputError(image.filename().string()); };
     EXPECT_EQ(message_of([&] { (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("no.obj"), {}, nobody); }),
@@ -117,14 +118,65 @@ TEST_F(Warp, takes_the_texture_image_along_under_a_name_that_no_other_image_has)
     EXPECT_EQ(read_mesh_file(at("bare.obj")).texture_file, "");
 }
 
-TEST_F(Warp, refuses_a_texture_name_only_for_an_output_that_takes_the_texture) {
+TEST_F(Warp, leaves_out_a_texture_that_it_cannot_find_and_says_so) {
     base::write_atomically(at("in.obj"), "mtllib in.mtl\nv 2 2 2\nv 4 0 0\nv 4 4 4\nf 1 2 3\n");
     base::write_atomically(at("in.mtl"), "newmtl skin\nmap_Kd C:\\scans\\face.jpg\n");
-    for (const char* name : {"out.csv", "out.stl", "out.vtp"})
-        EXPECT_EQ(warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at(name)).points, 3U) << name;
-    for (const char* name : {"out.obj", "out.ply"})
-        EXPECT_THAT(message_of<InputError>([&] { (void)warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at(name)); }),
-                    HasSubstr("texture name is 'C:"));
+    for (const char* name : {"out.obj", "out.ply"}) {
+        const auto report = warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at(name));
+        EXPECT_EQ(report.points, 3U) << name;
+        EXPECT_THAT(report.remarks, ElementsAre(HasSubstr("texture name is 'C:"))) << name;
+    }
+    base::write_atomically(at("in.mtl"), "newmtl skin\nmap_Kd face.jpg\n");
+    EXPECT_THAT(warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("out.ply")).remarks,
+                ElementsAre(HasSubstr("texture 'face.jpg' is left out: it is not beside the mesh")));
+    EXPECT_THAT(warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("out.stl")).remarks,
+                ElementsAre(HasSubstr("out.stl: the format names no image")));
+}
+
+TEST_F(Warp, hands_on_nothing_but_images_that_lie_with_the_mesh) {
+    base::write_atomically(at("in.obj"), "mtllib in.mtl\nv 2 2 2\nv 4 0 0\nv 4 4 4\nf 1 2 3\n");
+    base::write_atomically(at("in.mtl"), "newmtl skin\nmap_Kd skin.png\n");
+    const auto remark_of = [&] {
+        std::filesystem::remove(at("out_texture.png"));
+        const auto report = warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at("out.ply"));
+        EXPECT_EQ(read_mesh_file(at("out.ply")).texture_file,
+                  std::filesystem::exists(at("out_texture.png")) ? "out_texture.png" : "");
+        return report.remarks.empty() ? std::string() : report.remarks.front();
+    };
+    base::write_atomically(at("skin.png"), "-----BEGIN KEY-----\n");
+    EXPECT_THAT(remark_of(), HasSubstr("skin.png: is neither a PNG, a JPEG nor a BMP image"));
+    base::write_atomically(at("skin.png"), "\x89PNG\r\n\x1A\n and no more");
+    EXPECT_THAT(remark_of(), HasSubstr("skin.png"));
+    const TemporaryFolder elsewhere;
+    write_png(elsewhere / "private.png", {1, 1, {1, 2, 3}});
+    std::filesystem::remove(at("skin.png"));
+    std::filesystem::create_symlink(elsewhere / "private.png", at("skin.png"));
+    EXPECT_THAT(remark_of(), HasSubstr("a link that leads out of the mesh's folder"));
+    EXPECT_FALSE(std::filesystem::exists(at("out_texture.png")));
+    std::filesystem::remove(at("skin.png"));
+    write_png(at("sub/true.png"), {1, 1, {1, 2, 3}});
+    std::filesystem::create_symlink("sub/true.png", at("skin.png"));
+    EXPECT_EQ(remark_of(), "");
+    EXPECT_TRUE(std::filesystem::exists(at("out_texture.png")));
+}
+
+TEST_F(Warp, takes_several_images_along) {
+    base::write_atomically(at("in.obj"),
+                           "mtllib in.mtl\nv 2 2 2\nv 4 0 0\nv 4 4 4\nv 0 4 4\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                           "usemtl b\nf 1/1 2/2 3/3\nusemtl a\nf 1/1 3/2 4/3\nusemtl lost\nf 2/1 3/2 4/3\n");
+    base::write_atomically(at("in.mtl"),
+                           "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd b.png\nnewmtl lost\nmap_Kd lost.png\n");
+    write_png(at("a.png"), {1, 1, {255, 0, 0}});
+    write_png(at("b.png"), {1, 1, {0, 0, 255}});
+    for (const char* name : {"out/x.obj", "out/x.ply"}) {
+        const auto report = warp_file(at("a.csv"), at("b.csv"), at("in.obj"), at(name));
+        EXPECT_THAT(report.remarks, ElementsAre(HasSubstr("texture 'lost.png' is left out"))) << name;
+        const auto file = read_mesh_file(at(name));
+        EXPECT_THAT(file.texture_files, ElementsAre("x_texture.png", "x_texture_2.png")) << name;
+        EXPECT_THAT(file.face_textures, ElementsAre(0U, 1U, no_picture)) << name;
+    }
+    EXPECT_EQ(read_png(at("out/x_texture.png")).rgb, (std::vector<std::uint8_t>{0, 0, 255}));
+    EXPECT_EQ(read_png(at("out/x_texture_2.png")).rgb, (std::vector<std::uint8_t>{255, 0, 0}));
 }
 
 TEST_F(Warp, goes_without_an_image_that_the_system_will_not_look_for) {
