@@ -16,6 +16,7 @@
 #include "base/file.h"
 #include "base/output_folder.h"
 #include "base/parallel.h"
+#include "database/bnt.h"
 #include "database/hidden_subjects.h"
 #include "geometry/landmark_spline.h"
 #include "io/json_values.h"
@@ -75,8 +76,10 @@ std::string shape_stamp(const ScanEntry& entry) {
 /// Everything that a face takes from an entry. Image and image landmarks together decide how the texture lies; files
 /// that only the scan file names stand in `.done`.
 std::string entry_stamp(const ScanEntry& entry) {
-    return fmt::format("{} sex '{}' texture '{}' {} {}", shape_stamp(entry), entry.sex, entry.texture_file.string(),
-                       file_stamp(entry.texture_file), file_stamp(entry.landmarks2d_file));
+    // Of meshes alone, whose pictures may be painted anew: raise it when they come out otherwise.
+    const char* const pictures = database::is_bnt(entry.scan_file) ? "" : " pictures 1";
+    return fmt::format("{} sex '{}' texture '{}' {} {}{}", shape_stamp(entry), entry.sex, entry.texture_file.string(),
+                       file_stamp(entry.texture_file), file_stamp(entry.landmarks2d_file), pictures);
 }
 
 /// Nothing can be done with a scan without landmarks, or with some on the other side: found out before it is gridded.

@@ -124,7 +124,8 @@ TEST_F(File, of_a_long_file_the_head_is_read_and_of_a_short_one_the_whole) {
 
 TEST_F(File, a_name_with_a_line_break_is_refused_before_anything_is_written) {
     for (const auto* name : {"a\nb.ply", "a\x1b[31m.ply", "a\x7f"})
-        EXPECT_THAT(input_error([&] { write_atomically(folder_ / name, "x"); }), HasSubstr("control character")) << name;
+        EXPECT_THAT(input_error([&] { write_atomically(folder_ / name, "x"); }), HasSubstr("control character"))
+            << name;
     EXPECT_FALSE(std::filesystem::exists(folder_));
 }
 
@@ -155,7 +156,8 @@ TEST_F(File, what_a_killed_writer_left_is_removed_and_what_lives_stays) {
     std::filesystem::create_directories(folder_);
     const TemporaryFile living(folder_);
     const TemporaryFolder living_folder(folder_);
-    for (const auto* name : {".mimik-0123456789abcdef.part", ".mimik-0123456789ABCDEF.part", ".mimik-0123.part", "x.part"})
+    for (const auto* name :
+         {".mimik-0123456789abcdef.part", ".mimik-0123456789ABCDEF.part", ".mimik-0123.part", "x.part"})
         std::ofstream(folder_ / name) << "left";
     std::filesystem::create_directories(folder_ / ".mimik-00000000ffffffff.part" / "bs000");
     std::ofstream(folder_ / "target") << "kept";

@@ -171,8 +171,8 @@ TEST(Glb, a_mesh_far_from_the_origin_stands_in_a_node_that_carries_the_offset) {
     EXPECT_FALSE(near_glb.json["nodes"][0].contains("translation"));
     const auto translation = far_glb.json["nodes"][0]["translation"].get<std::array<double, 3>>();
     const auto positions = [](const Chunks& glb) {
-        const auto& accessor = glb.json["accessors"][glb.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]
-                                                         .get<std::size_t>()];
+        const auto& accessor =
+            glb.json["accessors"][glb.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
         const auto& view = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
         const auto* at = glb.binary.data() + view["byteOffset"].get<std::size_t>();
         std::vector<double> values;

@@ -151,7 +151,8 @@ TEST(Bmp, errors_name_the_file_and_what_is_wrong) {
     const auto refused = [](const std::string& bmp) {
         return message_of([&] { (void)decode_image(bytes_of(bmp), "a.bmp"); });
     };
-    EXPECT_THAT(refused(bmp_of(bmp_info(2, 2, 24), "12345678")), HasSubstr("a.bmp: width x height is 2 x 2, but the file"));
+    EXPECT_THAT(refused(bmp_of(bmp_info(2, 2, 24), "12345678")),
+                HasSubstr("a.bmp: width x height is 2 x 2, but the file"));
     EXPECT_THAT(refused(bmp_of(bmp_info(2, 2, 8, 1, std::string(1024, 'x')), "12345678")), HasSubstr("is compressed"));
     EXPECT_THAT(refused(bmp_of(bmp_info(0, 2, 24), "")), HasSubstr("the image is empty"));
     EXPECT_THAT(refused(bmp_of(bmp_info(20000, -20000, 24), "")), HasSubstr("more than the 100 million pixels"));
@@ -163,7 +164,8 @@ TEST(Images, of_kinds_that_are_not_read_are_named) {
     const auto refused = [](std::string_view bytes) {
         return message_of([&] { (void)decode_image(bytes_of(bytes), "a.x"); });
     };
-    EXPECT_THAT(refused(std::string_view("II*\0....", 8)), HasSubstr("a.x: is a TIFF image, which is not read; save it"));
+    EXPECT_THAT(refused(std::string_view("II*\0....", 8)),
+                HasSubstr("a.x: is a TIFF image, which is not read; save it"));
     EXPECT_THAT(refused(std::string_view("MM\0*....", 8)), HasSubstr("is a TIFF image"));
     EXPECT_THAT(refused("GIF89a.."), HasSubstr("is a GIF image"));
     EXPECT_THAT(refused(std::string_view("RIFF\0\0\0\0WEBPVP8 ", 16)), HasSubstr("is a WebP image"));
