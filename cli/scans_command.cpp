@@ -6,6 +6,8 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -84,37 +86,6 @@ nlohmann::ordered_json json_of(const ScanEntry& entry, const ScanSummary& summar
                           {"intensity", score.intensity ? std::string(1, score.intensity) : std::string()}});
     json["facs_scores"] = std::move(scores);
     return json;
-}
-
-void print_json(const ScanDatabase& database, const std::vector<const ScanEntry*>& scans,
-                const ScanIndexResult& result) {
-    nlohmann::ordered_json json = {{"schema", 1},
-                                   {"database", database.root.string()},
-                                   {"layout", database.layout == DatabaseLayout::manifest ? "manifest" : "bosphorus"},
-                                   {"hidden_subjects", database.hidden_subjects},
-                                   {"one_sided_codes",
-                                    {{"own_side", database.code_sides.own_side},
-                                     {"other_side", database.code_sides.other_side},
-                                     {"undecided", database.code_sides.undecided},
-                                     {"names_are_the_viewers", database.code_sides.swapped}}},
-                                   {"remarks", database.remarks},
-                                   {"catalogue",
-                                    {{"file", result.file.string()},
-                                     {"scans_read", result.scans_read},
-                                     {"scans_remembered", result.scans_remembered},
-                                     {"remark", result.remark}}},
-                                   {"subjects", nlohmann::ordered_json::array()}};
-    auto& subjects = json["subjects"];
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-        const auto& entry = *scans[i];
-        if (subjects.empty() || subjects.back()["subject"] != entry.id.subject)
-            subjects.push_back({{"subject", entry.id.subject},
-                                {"sex", entry.sex},
-                                {"hidden", database.hidden(entry.id.subject)},
-                                {"scans", nlohmann::ordered_json::array()}});
-        subjects.back()["scans"].push_back(json_of(entry, result.summaries[i]));
-    }
-    std::cout << io::json_text(json);
 }
 
 /// Columns as wide as their widest cell; the first is left-aligned, and the last.
@@ -204,20 +175,98 @@ void print_scans(const ScanDatabase& database, const std::vector<const ScanEntry
     print_table(rows);
 }
 
-void print_findings(const std::vector<const ScanEntry*>& scans, const ScanIndexResult& result, bool notes) {
+/// Findings that are alike in severity, kind and mend, with the scans that have them, each once.
+struct FindingGroup {
+    const Finding* first = nullptr;
+    struct Scan {
+        std::string name, what, where;
+    };
+    std::vector<Scan> scans;
+};
+
+/// Worst first; otherwise in the order of the scans.
+std::vector<FindingGroup> grouped(const std::vector<const ScanEntry*>& scans, const ScanIndexResult& result,
+                                  bool notes) {
+    std::vector<FindingGroup> groups;
+    std::map<std::tuple<Severity, std::string, std::string>, std::size_t> place;
+    for (std::size_t i = 0; i < scans.size(); ++i)
+        for (const auto& finding : result.summaries[i].findings) {
+            if (!notes && finding.severity == Severity::note) continue;
+            const auto [at, is_new] = place.try_emplace({finding.severity, finding.kind, finding.mend}, groups.size());
+            if (is_new) groups.push_back({&finding, {}});
+            auto& members = groups[at->second].scans;
+            auto name = scans[i]->id.name();
+            if (!members.empty() && members.back().name == name)
+                members.back().what += "; " + finding.what;
+            else
+                members.push_back({std::move(name), finding.what, finding.where});
+        }
+    std::stable_sort(groups.begin(), groups.end(), [](const FindingGroup& a, const FindingGroup& b) {
+        return a.first->severity > b.first->severity;
+    });
+    return groups;
+}
+
+/// `all`: every note and every scan; else three scans of a group stand for it.
+void print_findings(const std::vector<const ScanEntry*>& scans, const ScanIndexResult& result, bool all) {
     for (std::size_t i = 0; i < scans.size(); ++i) {
         const auto& summary = result.summaries[i];
         if (!summary.checked && !summary.error.empty())
             std::cout << fmt::format("\n{}: unreadable: {}\n", one_line(scans[i]->id.name()), one_line(summary.error));
-        if (notes && !summary.checked)  // the doctor says the same with a mend
+        if (all && !summary.checked)  // the doctor says the same with a mend
             for (const auto& remark : summary.remarks)
                 std::cout << fmt::format("\n{}: {}\n", one_line(scans[i]->id.name()), one_line(remark));
-        for (const auto& finding : summary.findings)
-            if (notes || finding.severity != Severity::note)
-                std::cout << fmt::format("\n{}: {} ({}): {}\n    at   {}\n    mend {}\n", one_line(scans[i]->id.name()),
-                                         to_string(finding.severity), finding.kind, one_line(finding.what),
-                                         one_line(finding.where), one_line(finding.mend));
     }
+    for (const auto& group : grouped(scans, result, all)) {
+        constexpr std::size_t most = 3;
+        const std::size_t shown = all || group.scans.size() == most + 1 ? group.scans.size() : most;
+        std::cout << fmt::format("\n{} ({}): {} scan{}\n", to_string(group.first->severity), group.first->kind,
+                                 group.scans.size(), group.scans.size() == 1 ? "" : "s");
+        for (std::size_t k = 0; k < group.scans.size() && k < shown; ++k)
+            std::cout << fmt::format("    {}: {}\n        at {}\n", one_line(group.scans[k].name),
+                                     one_line(group.scans[k].what), one_line(group.scans[k].where));
+        if (group.scans.size() > shown)
+            std::cout << fmt::format("    and {} more; --list names every one\n", group.scans.size() - shown);
+        std::cout << fmt::format("    mend: {}\n", one_line(group.first->mend));
+    }
+}
+
+void print_json(const ScanDatabase& database, const std::vector<const ScanEntry*>& scans,
+                const ScanIndexResult& result) {
+    auto counts = nlohmann::ordered_json::array();
+    for (const auto& group : grouped(scans, result, true))
+        counts.push_back({{"severity", to_string(group.first->severity)},
+                          {"kind", group.first->kind},
+                          {"mend", group.first->mend},
+                          {"scans", group.scans.size()}});
+    nlohmann::ordered_json json = {{"schema", 1},
+                                   {"database", database.root.string()},
+                                   {"layout", database.layout == DatabaseLayout::manifest ? "manifest" : "bosphorus"},
+                                   {"hidden_subjects", database.hidden_subjects},
+                                   {"one_sided_codes",
+                                    {{"own_side", database.code_sides.own_side},
+                                     {"other_side", database.code_sides.other_side},
+                                     {"undecided", database.code_sides.undecided},
+                                     {"names_are_the_viewers", database.code_sides.swapped}}},
+                                   {"remarks", database.remarks},
+                                   {"catalogue",
+                                    {{"file", result.file.string()},
+                                     {"scans_read", result.scans_read},
+                                     {"scans_remembered", result.scans_remembered},
+                                     {"remark", result.remark}}},
+                                   {"finding_counts", std::move(counts)},
+                                   {"subjects", nlohmann::ordered_json::array()}};
+    auto& subjects = json["subjects"];
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        const auto& entry = *scans[i];
+        if (subjects.empty() || subjects.back()["subject"] != entry.id.subject)
+            subjects.push_back({{"subject", entry.id.subject},
+                                {"sex", entry.sex},
+                                {"hidden", database.hidden(entry.id.subject)},
+                                {"scans", nlohmann::ordered_json::array()}});
+        subjects.back()["scans"].push_back(json_of(entry, result.summaries[i]));
+    }
+    std::cout << io::json_text(json);
 }
 
 int action_unit_number(const std::string& text) {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <system_error>
+#include <span>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -13,6 +12,8 @@
 
 #include "base/errors.h"
 #include "database/bnt.h"
+#include "database/doctor_report.h"
+#include "database/landmark_distance.h"
 #include "geometry/face_axes.h"
 #include "geometry/spikes.h"
 #include "io/json_values.h"
@@ -25,194 +26,10 @@ using geometry::Landmarks;
 using geometry::Point;
 using geometry::Vector;
 
-/// Heads of these groups are turned or covered on purpose.
-bool posed_or_covered(const ScanId& id) {
-    return id.group == "YR" || id.group == "PR" || id.group == "CR" || id.group == "O" || id.group == "IGN";
-}
-
-class Report {
-public:
-    explicit Report(std::string file) : file_(std::move(file)) {}
-    void add(Severity severity, std::string kind, std::string what, std::string mend, std::string where = {}) {
-        findings_.push_back(
-            {severity, std::move(kind), std::move(what), where.empty() ? file_ : std::move(where), std::move(mend)});
-    }
-    std::vector<Finding> finish() {
-        std::stable_sort(findings_.begin(), findings_.end(),
-                         [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
-        return std::move(findings_);
-    }
-
-private:
-    std::string file_;
-    std::vector<Finding> findings_;
-};
-
-std::optional<double> distance_mm(const Landmarks& marks, std::string_view a, std::string_view b) {
-    const auto* p = marks.find(a);
-    const auto* q = marks.find(b);
-    return p && q ? std::optional((p->position_mm - q->position_mm).norm()) : std::nullopt;
-}
-
 std::string counted(int count, std::string_view word) {
     return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
 }
 std::string text_of(const Point& p) { return fmt::format("({:.0f}, {:.0f}, {:.0f})", p.x(), p.y(), p.z()); }
-
-/// Size against the adult mean (3D Facial Norms, men and women together), by the first distance that can be measured.
-std::optional<double> size_ratio(const Landmarks& marks) {
-    struct Norm {
-        std::string_view a, b;
-        double mean_mm;
-    };
-    static constexpr std::array<Norm, 4> norms = {{{"eye_outer_left", "eye_outer_right", 87.0},
-                                                   {"eye_inner_left", "eye_inner_right", 32.0},
-                                                   {"mouth_corner_left", "mouth_corner_right", 49.0},
-                                                   {"nose_wing_left", "nose_wing_right", 34.0}}};
-    for (const auto& norm : norms)
-        if (const auto measured = distance_mm(marks, norm.a, norm.b)) return *measured / norm.mean_mm;
-    return std::nullopt;
-}
-
-/// A face with hair and neck has 200 to 350 mm across.
-double box_ratio(const geometry::RangeScan& scan) {
-    Eigen::AlignedBox3d box;
-    for (const auto& p : scan.points_mm)
-        if (p.allFinite()) box.extend(p);
-    return box.diagonal().norm() / 270.0;
-}
-
-void check_unit(const LoadedScan& loaded, const DoctorOptions& options, Report& report) {
-    const auto marks = size_ratio(loaded.landmarks);
-    const double scan = box_ratio(loaded.scan);
-    // Hair, shoulders and strays make the box larger, a crop smaller, but not by that: then one file has another unit.
-    constexpr double most_apart = 4;
-    const bool apart = marks && (*marks * most_apart < scan || *marks > most_apart * scan);
-    const auto fits = [&](double ratio) { return ratio >= options.min_size_ratio && ratio <= options.max_size_ratio; };
-    if (!apart && fits(marks.value_or(scan))) return;
-
-    const bool scan_alone = apart && fits(*marks);
-    const double ratio = !marks || scan_alone ? scan : *marks;
-    std::string what = fmt::format("{} {:.3g} times the size of an adult face", marks ? "its landmarks are" : "it is",
-                                   marks.value_or(scan));
-    if (apart) what += fmt::format(", but the scan {:.3g} times", scan);
-    const char* coordinates = !marks       ? "all coordinates"
-                              : scan_alone ? "the coordinates of the scan"
-                              : apart      ? "the coordinates of the landmarks"
-                                           : "all coordinates of scan and landmarks";
-    const std::string where = apart && !scan_alone ? loaded.entry.landmarks_file.string() : std::string();
-
-    struct Unit {
-        double mm;
-        const char *name, *of_manifest;
-    };
-    static constexpr std::array<Unit, 3> units = {
-        {{10, "centimetres", "cm"}, {1000, "metres", "m"}, {25.4, "inches", nullptr}}};
-    const auto* unit = std::min_element(units.begin(), units.end(), [&](const Unit& a, const Unit& b) {
-        return std::abs(std::log(ratio * a.mm)) < std::abs(std::log(ratio * b.mm));
-    });
-    const double slack = scan_alone ? 2 : 1;  // a box is no measure of a face
-    if (ratio * unit->mm < options.min_size_ratio / slack || ratio * unit->mm > options.max_size_ratio * slack)
-        return report.add(
-            Severity::error, "unit", what,
-            fmt::format("convert {} to {}, and check the landmarks", coordinates,
-                        loaded.entry.unit == io::LengthUnit::millimetre ? "millimetres"
-                                                                        : "the unit that manifest.csv gives them"),
-            where);
-    // The table has one unit for both files.
-    const bool in_table = !apart && loaded.entry.layout == DatabaseLayout::manifest && unit->of_manifest != nullptr;
-    report.add(
-        Severity::error, "unit",
-        fmt::format("{}: {} like {}", what, apart && !scan_alone ? "the landmarks look" : "looks", unit->name),
-        fmt::format("{}multiply {} by {}",
-                    in_table ? fmt::format("put {} in the column unit of manifest.csv, or ", unit->of_manifest) : "",
-                    coordinates, unit->mm),
-        where);
-}
-
-/// One axis of the scan by its witnesses.
-struct AxisWitnesses {
-    std::optional<double> texture, lattice;  ///< correlations
-    std::optional<bool> head_mirrored;       ///< by the landmarks; empty: they do not tell
-};
-struct AxisWords {
-    const char *axis, *of_texture, *of_lattice, *mend, *turn_texture, *turn_lattice;
-};
-
-void check_axis(const AxisWitnesses& by, const AxisWords& words, Report& report) {
-    const bool against_texture = by.texture && *by.texture < 0, against_lattice = by.lattice && *by.lattice < 0;
-    if (!against_texture && !against_lattice) return;
-    const auto falls = [&](const char* of, double correlation) {
-        return fmt::format("{} falls while the {} (correlation {:.2f})", words.axis, of, correlation);
-    };
-    // Pictures are flipped as easily as coordinates: against the texture alone it is the texture that is wrong.
-    const bool two_agree = against_texture && (against_lattice || by.head_mirrored.value_or(false));
-    if ((two_agree || !by.texture) && by.head_mirrored.value_or(true))
-        return report.add(
-            Severity::error, "frame",
-            fmt::format("{}: {} is mirrored",
-                        against_texture ? falls(words.of_texture, *by.texture) : falls(words.of_lattice, *by.lattice),
-                        words.axis),
-            words.mend);
-    const bool upright = !by.head_mirrored.value_or(true);
-    if (against_texture)
-        report.add(
-            Severity::warning, "texture",
-            fmt::format("{}, though {}: the texture coordinates are mirrored", falls(words.of_texture, *by.texture),
-                        upright ? "the head stands upright" : fmt::format("nothing else says that {} is", words.axis)),
-            words.turn_texture);
-    if (against_lattice)
-        report.add(
-            Severity::warning, "frame",
-            fmt::format("{}, though {}: the lattice is stored the other way", falls(words.of_lattice, *by.lattice),
-                        upright ? "the head stands upright" : "not against the texture"),
-            words.turn_lattice);
-}
-
-void check_frame(const LoadedScan& loaded, Report& report) {
-    const auto& found = loaded.checks.correlations;
-    const auto axes = geometry::head_axes(loaded.landmarks);
-    AxisWitnesses x{found.x_u, found.x_column, {}}, y{found.y_v, found.y_row, {}};
-    // Names may follow from where the points lie (Bosphorus labels do): that left is at +x proves nothing.
-    if (axes && axes->lateral.x() < -0.3) x.head_mirrored = true;
-    if (axes && std::abs(axes->up.y()) > 0.5) y.head_mirrored = axes->up.y() < 0;
-    check_axis(
-        x,
-        {"x", "texture's u grows", "column grows",
-         "change the sign of every x (scan and landmarks): +x is the subject's left, right in the image",
-         "turn u: u -> 1 - u; if it is the face that is mirrored, change the sign of every x (scan and landmarks)",
-         "write every row of the lattice the other way round: x grows with the column"},
-        report);
-    check_axis(y,
-               {"y", "texture goes up", "row goes up",
-                "change the sign of every y (scan and landmarks), or turn the rows over: +y is up, row 0 the lowest",
-                "turn v: v -> 1 - v", "write the rows of the lattice the other way round: row 0 is the lowest"},
-               report);
-    if (!axes) return;
-    const bool y_down = axes->up.y() < -0.5, z_away = axes->out.z() < -0.5;
-    if (y_down && z_away)
-        report.add(Severity::error, "frame", "y points down and z away from the camera (a camera frame)",
-                   "turn scan and landmarks by 180 degrees about x: change the signs of y and z");
-    else if (y_down)
-        report.add(Severity::error, "frame", "y points down: the mouth lies above the eyes",
-                   "change the sign of every y, or turn the scan by 180 degrees about z if the picture is upside down");
-    else if (z_away)
-        report.add(Severity::error, "frame",
-                   "z does not point toward the camera: the nose tip lies behind eyes and mouth",
-                   "change the sign of every z, in scan and landmarks");
-    else if (const double angle_deg =
-                 57.29577951308232 * std::acos(std::clamp(std::min(axes->up.y(), axes->out.z()), -1.0, 1.0));
-             angle_deg > 40 && !posed_or_covered(loaded.entry.id))
-        report.add(
-            Severity::warning, "frame",
-            fmt::format("the head is turned by {:.0f} degrees against the frame (y up, z out of the face)", angle_deg),
-            "turn scan and landmarks to y up and z toward the camera, or give the scan a pose code such as YR_R45");
-    if (axes->lateral.x() < -0.3)
-        report.add(
-            Severity::error, "sides", "the landmarks named left lie at smaller x than those named right",
-            "exchange left and right in the names (they are the subject's own), or change the sign of every x if the "
-            "scan is mirrored");
-}
 
 void check_sides(const LoadedScan& loaded, const Landmarks* neutral, Report& report) {
     const auto& sides = loaded.checks.sides;
@@ -237,6 +54,18 @@ void check_sides(const LoadedScan& loaded, const Landmarks* neutral, Report& rep
                        std::max(decision.left_mm, decision.right_mm), std::min(decision.left_mm, decision.right_mm)),
                    fmt::format("rename the scan to {}, or check its mouth corners",
                                loaded.entry.id.mirrored().group_and_code()));
+}
+
+/// Unit and frame; how far each landmark lies off the surface.
+std::vector<double> check_placement(const LoadedScan& loaded, const DoctorOptions& options, Report& report) {
+    // A landmark must be nearer than both limits, in mm and in the scan's own size, to be told by the next point.
+    double near_enough_mm = options.landmark_off_scan_mm;
+    if (loaded.landmarks.find("eye_outer_left") && loaded.landmarks.find("eye_outer_right"))
+        near_enough_mm = std::min(near_enough_mm, 0.02 * geometry::outer_eye_distance_mm(loaded.landmarks));
+    auto off_mm = landmark_distances_mm(loaded.scan, loaded.landmarks, near_enough_mm);
+    check_unit(loaded, off_mm, options, report);
+    check_frame(loaded, off_mm, report);
+    return off_mm;
 }
 
 void check_landmarks_present(const LoadedScan& loaded, Report& report) {
@@ -297,23 +126,24 @@ void check_landmark_order(const LoadedScan& loaded, const DoctorOptions& options
         check(above, below, axes->up, "above");
 }
 
-void check_landmarks_on_scan(const LoadedScan& loaded, const DoctorOptions& options, Report& report) {
-    const auto nearest = nearest_scan_points(loaded.scan, loaded.landmarks);
+void check_landmarks_on_scan(const LoadedScan& loaded, std::span<const double> off_mm, const DoctorOptions& options,
+                             Report& report) {
     std::vector<std::string> off;
     double worst_mm = 0;
-    for (std::size_t m = 0; m < nearest.size(); ++m) {
-        if (nearest[m].distance_mm <= options.landmark_off_scan_mm) continue;
-        off.push_back(fmt::format("{} ({:.1f} mm)", loaded.landmarks.all()[m].name, nearest[m].distance_mm));
-        worst_mm = std::max(worst_mm, nearest[m].distance_mm);
+    for (std::size_t m = 0; m < off_mm.size(); ++m) {
+        if (off_mm[m] <= options.landmark_off_scan_mm) continue;
+        off.push_back(fmt::format("{} ({:.1f} mm)", loaded.landmarks.all()[m].name, off_mm[m]));
+        worst_mm = std::max(worst_mm, off_mm[m]);
     }
     if (off.empty()) return;
     const std::string where = loaded.entry.landmarks_file.string();
-    if (2 * off.size() > nearest.size() && worst_mm > 5 * options.landmark_off_scan_mm)
+    const bool far = worst_mm > 5 * options.landmark_off_scan_mm;
+    if (2 * off.size() > off_mm.size() && far)
         return report.add(
             Severity::error, "landmarks-off-scan",
-            fmt::format("{} of {} landmarks lie off the scan, up to {:.1f} mm", off.size(), nearest.size(), worst_mm),
+            fmt::format("{} of {} landmarks lie off the scan, up to {:.1f} mm", off.size(), off_mm.size(), worst_mm),
             "the landmark file seems to belong to another scan, frame or unit: pair the files again", where);
-    report.add(worst_mm > 5 * options.landmark_off_scan_mm ? Severity::error : Severity::warning, "landmarks-off-scan",
+    report.add(far ? Severity::error : Severity::warning, "landmarks-off-scan",
                fmt::format("landmarks lie off the scan: {}", fmt::join(off, ", ")), "mark them again on the surface",
                where);
 }
@@ -429,15 +259,24 @@ void DoctorOptions::check() const {
 std::vector<Finding> check_scan(const LoadedScan& loaded, const Landmarks* neutral, const DoctorOptions& options) {
     options.check();
     Report report(loaded.entry.scan_file.string());
-    check_unit(loaded, options, report);
-    check_frame(loaded, report);
+    const auto off_mm = check_placement(loaded, options, report);
     check_sides(loaded, neutral, report);
     check_landmarks_present(loaded, report);
     check_landmark_order(loaded, options, report);
-    check_landmarks_on_scan(loaded, options, report);
+    check_landmarks_on_scan(loaded, off_mm, options, report);
     check_surface(loaded, options, report);
     check_texture(loaded, report);
     return report.finish();
+}
+
+std::vector<Finding> reasons_to_refuse(const LoadedScan& loaded, const DoctorOptions& options) {
+    options.check();
+    Report report(loaded.entry.scan_file.string());
+    const auto off_mm = check_placement(loaded, options, report);
+    check_landmarks_on_scan(loaded, off_mm, options, report);
+    auto findings = report.finish();
+    std::erase_if(findings, [](const Finding& finding) { return finding.severity != Severity::error; });
+    return findings;
 }
 
 std::optional<Landmarks> landmarks_of(const ScanEntry& entry) {

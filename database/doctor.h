@@ -36,7 +36,7 @@ struct DoctorOptions {
     double spike_mm = 4.0;      ///< as CleaningOptions of preprocessing, which removes the spikes (geometry/spikes.h)
     double max_spike_share = 0.002;  ///< of the valid points; more get a warning
     double landmark_off_scan_mm =
-        2.0;  ///< landmarks are scan points; further off gets a warning, five times as far an error
+        2.0;  ///< from the surface (database/landmark_distance.h); more gets a warning, five times as much an error
     double order_tolerance_mm = 2.0;  ///< landmarks may lie this much in the wrong order: closed lips, marking noise
     int min_points = 2000;            ///< a face at the usual 0.8 mm has 35,000
     template <class Self, class Visit>
@@ -61,6 +61,10 @@ static_assert(base::lists_every_field<DoctorOptions>());
 /// The same for a scan that is already loaded.
 [[nodiscard]] std::vector<Finding> check_scan(const LoadedScan& loaded, const geometry::Landmarks* neutral = nullptr,
                                               const DoctorOptions& options = {});
+
+/// Why lengths on this scan cannot be trusted: the doctor's errors of unit, frame and of landmarks off the scan, worst
+/// first; empty for a scan that may be used. Cheaper than check_scan().
+[[nodiscard]] std::vector<Finding> reasons_to_refuse(const LoadedScan& loaded, const DoctorOptions& options = {});
 
 /// The landmarks of a scan under our names; empty if it cannot be loaded (checking that scan says why).
 [[nodiscard]] std::optional<geometry::Landmarks> landmarks_of(const ScanEntry& entry);

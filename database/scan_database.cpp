@@ -436,12 +436,6 @@ LoadedScan load(const ScanEntry& entry) {
                                              joined(loaded.checks.sides.swapped_pairs)));
 
     const auto nearest = nearest_scan_points(loaded.scan, loaded.landmarks);
-    for (std::size_t m = 0; m < nearest.size(); ++m)
-        if (nearest[m].distance_mm >= loaded.checks.landmark_off_scan_mm) {
-            loaded.checks.landmark_off_scan_mm = nearest[m].distance_mm;
-            loaded.checks.landmark_off_scan = loaded.landmarks.all()[m].name;
-        }
-
     check_texture(loaded, nearest);
     loaded.checks.correlations = frame_correlations(loaded.scan);
     check_frame(loaded.checks.correlations, loaded.remarks);

@@ -81,9 +81,7 @@ struct SelfChecks {
     SideReport sides;
     FrameCorrelations correlations;
     std::optional<TextureOrientation> texture;
-    double landmark_off_scan_mm = 0;  ///< largest distance of a landmark to the nearest valid point
-    std::string landmark_off_scan;    ///< its name; empty if there are no landmarks
-    std::string landmarks2d_error;    ///< why the .lm2 cannot be read
+    std::string landmarks2d_error;  ///< why the .lm2 cannot be read
 };
 
 /// One scan with its landmarks under our names (subject's own side), mm, scanner frame.

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raised whenever summaries or checks change their meaning: older indexes are then built anew.
-constexpr int index_version = 5;
+constexpr int index_version = 6;
 
 // As SQLite keeps them: a file that has anything else, such as a view or a trigger, is none of ours.
 constexpr const char* about_table = "CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL)";

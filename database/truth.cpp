@@ -51,6 +51,10 @@ Truth decode_truth(std::string_view text, const std::string& name) {
             if (!value.is_number_unsigned()) throw InputError(io::shown(value) + " is no whole number of 0 or more");
             return value.get<std::uint64_t>();
         });
+        // Older databases say less.
+        if (document.contains("expressions")) truth.expressions = io::read_field<std::string>(document, "expressions");
+        if (document.contains("scanner"))
+            truth.scanner = io::read_field<std::map<std::string, double>>(document, "scanner");
         if (document.contains("variances"))
             truth.variances = io::read_field<std::map<std::string, double>>(document, "variances");
         const auto& model = document.at("face_model");

@@ -28,7 +28,9 @@ struct Truth {
     std::filesystem::path root;  ///< of the database (the folder that holds bs000 ... and truth)
     std::uint64_t seed = 0;
     std::string face_model;
+    std::string expressions;                  ///< as 'mimik synthesize --expressions' was told
     std::map<std::string, double> variances;  ///< how far people and performances spread, by name of the option
+    std::map<std::string, double> scanner;    ///< what scanned and marked them, likewise
     std::vector<TrueSubject> subjects;
     std::vector<database::ScanId> scans;
     geometry::Faces faces;                                   ///< of every true surface

@@ -11,6 +11,25 @@ grep -q '"schema"' scans.json
 ! grep -v "^checking: " remarks.txt || fail "remarks"
 claim "the doctor has neither a warning nor a remark on a synthetic database"
 
+# All in one folder; the scans themselves are not touched.
+mkdir cm
+echo "subject,expression,scan,landmarks,unit" >cm/manifest.csv
+for subject in bs000 bs001 bs002; do
+  for scan in N_N_0 LFAU_12_0; do
+    cp "$shared/db1/$subject/${subject}_$scan".{bnt,lm3} cm/
+    echo "$subject,${scan%_0},${subject}_$scan.bnt,${subject}_$scan.lm3,cm" >>cm/manifest.csv
+  done
+done
+expect_code 1 $'error (unit): 6 scans\nlooks like millimetres, though manifest.csv says cm\nand 3 more; --list names every one\nput mm in the column unit' "$mimik" scans cm --check --no-catalogue
+[ "$(grep -c 'error (unit)' out.txt)" -eq 1 ] && [ "$(grep -c 'mend: put mm' out.txt)" -eq 1 ] || { cat out.txt; fail "groups"; }
+expect_code 1 "error (unit): 6 scans" "$mimik" scans cm --check --no-catalogue --list
+for subject in bs000 bs001 bs002; do
+  [ "$(grep -c "^    ${subject}_N_N_0: its landmarks are" out.txt)" -eq 1 ] || { cat out.txt; fail "$subject stands there once"; }
+done
+"$mimik" scans cm --check --no-catalogue --json >cm.json 2>/dev/null || [ $? -eq 1 ]
+grep -A 4 '"finding_counts"' cm.json | grep -q '"severity": "error"' && grep -q '"scans": 6' cm.json || fail "counts in JSON"
+claim "what is alike is said once with the number of scans, each of them once"
+
 "$mimik" scans db1 --au AU12 --side left --no-catalogue 2>/dev/null | grep -q ': 3 scans of 3 subjects'
 expect_code 2 $'--au is \'12L\'\n--side' "$mimik" scans db1 --au 12L
 claim "a side is asked for by its own option, and who types it into the Action Unit is told so"

@@ -1,12 +1,15 @@
 #include "database/doctor.h"
 
 #include <algorithm>
+#include <array>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "database/landmark_distance.h"
+#include "database/self_checks.h"
 #include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
 
@@ -130,9 +133,111 @@ TEST(Doctor, a_frame_with_z_away_y_down_or_both_is_named) {
                 HasSubstr("z does not point toward the camera"));
     EXPECT_THAT(frame([](auto p) { return geometry::Point(p.x(), -p.y(), p.z()); }), HasSubstr("y points down"));
     EXPECT_THAT(frame([](auto p) { return geometry::Point(p.x(), -p.y(), -p.z()); }), HasSubstr("180 degrees about x"));
-    EXPECT_THAT(frame([](auto p) { return geometry::Point(p.x(), -p.z(), p.y()); }),
-                HasSubstr("warning: the head is turned by"));
     EXPECT_EQ(frame([](auto p) { return p; }), "");
+}
+
+/// As a PLY has it: no lattice.
+MadeFace as_mesh(MadeFace face) {
+    face.scan.rows = face.scan.cols = 0;
+    return face;
+}
+
+/// With names of the subject's own side, as a manifest's landmark files have them.
+LoadedScan with_own_names(const MadeFace& face) {
+    auto scan = loaded(face);
+    scan.landmarks = face.landmarks;
+    scan.entry.landmarks_file = "bs000_N_N_0.csv";
+    scan.checks = {};
+    return scan;
+}
+
+TEST(Doctor, every_way_to_turn_or_mirror_a_face_is_an_error_whose_mend_is_the_way_back) {
+    const auto frame = [](const std::function<geometry::Point(geometry::Point)>& map) {
+        return found(check_scan(with_own_names(mapped(as_mesh(make_face()), map))), "frame");
+    };
+    using P = geometry::Point;
+    EXPECT_THAT(frame([](P p) { return P(p.x(), -p.z(), p.y()); }),  // z up
+                HasSubstr("error: the head's up is z and it looks along -y, instead of y and z -> turn scan and "
+                          "landmarks to y up and z toward the camera: (x, y, z) -> (x, z, -y)"));
+    EXPECT_THAT(frame([](P p) { return P(p.z(), p.x(), p.y()); }), HasSubstr("(x, y, z) -> (y, z, x)"));
+    EXPECT_THAT(frame([](P p) { return P(p.z(), p.y(), -p.x()); }), HasSubstr("(x, y, z) -> (-z, y, x)"));
+    EXPECT_THAT(frame([](P p) { return P(p.y(), -p.x(), p.z()); }), HasSubstr("(x, y, z) -> (-y, x, z)"));
+    EXPECT_THAT(frame([](P p) { return P(-p.x(), -p.y(), p.z()); }), HasSubstr("change the signs of x and y\n"));
+    EXPECT_THAT(frame([](P p) { return P(-p.x(), p.y(), -p.z()); }), HasSubstr("change the signs of x and z\n"));
+    EXPECT_THAT(frame([](P p) { return P(p.x(), -p.y(), -p.z()); }), HasSubstr("change the signs of y and z\n"));
+    EXPECT_THAT(frame([](P p) { return P(p.x(), p.y(), -p.z()); }), HasSubstr("change the sign of every z, in"));
+    EXPECT_THAT(frame([](P p) { return P(p.x(), -p.y(), p.z()); }), HasSubstr("change the sign of every y, in"));
+    EXPECT_EQ(frame([](P p) { return p; }), "");
+    // One fault is one finding: a face that looks away is not mirrored, too.
+    const auto away =
+        check_scan(with_own_names(mapped(as_mesh(make_face()), [](P p) { return P(-p.x(), p.y(), -p.z()); })));
+    ASSERT_EQ(away.size(), 2U);
+    EXPECT_EQ(away[1].kind, "holes");  // of a bare cloud
+}
+
+TEST(Doctor, a_wrong_nose_tip_is_no_scan_seen_from_behind) {
+    const auto face = make_face();
+    auto scan = loaded(face);
+    const double nose_mm = face.landmarks.position_mm("nose_tip").z();
+    scan.landmarks = moved(scan.landmarks, {{"nose_tip", {0, 0, -2 * nose_mm}}});  // a sign was lost
+    const auto findings = check_scan(scan);
+    EXPECT_EQ(found(findings, "frame"), "");
+    EXPECT_THAT(found(findings, "landmarks-swapped"), HasSubstr("error: 'nose_tip' lies behind eyes and mouth, but"));
+    EXPECT_THAT(found(findings, "landmarks-off-scan"), HasSubstr("error: landmarks lie off the scan: nose_tip ("));
+    // Landmarks of another frame are off the scan; how they lie says nothing about it.
+    scan.landmarks = mapped(face, [](auto p) { return geometry::Point(p.x(), p.y(), -p.z()); }).landmarks;
+    EXPECT_EQ(found(check_scan(scan), "frame"), "");
+    EXPECT_THAT(found(check_scan(scan), "landmarks-off-scan"), HasSubstr("another scan, frame or unit"));
+}
+
+TEST(Doctor, shoulders_a_whole_body_and_a_close_crop_are_no_error_of_unit) {
+    const auto face = make_face();
+    auto body = loaded(as_mesh(face));
+    body.scan.texture_coordinates.clear();
+    for (int i = 0; i < 400; ++i) body.scan.points_mm.emplace_back(i % 20 * 25 - 250, -150 - i / 20 * 75, -100);
+    EXPECT_EQ(found(check_scan(body), "unit"), "");
+    for (auto& p : body.scan.points_mm) p *= 0.1;  // but all of it in cm is
+    body.landmarks = mapped(face, [](auto p) { return geometry::Point(0.1 * p); }).landmarks;
+    EXPECT_THAT(found(check_scan(body), "unit"),
+                HasSubstr("looks like centimetres -> multiply all coordinates of scan and landmarks by 10"));
+    auto shoulders = loaded(face);
+    shoulders.landmarks = {};
+    for (auto& p : shoulders.scan.points_mm) p *= 3;  // as wide as shoulders
+    EXPECT_EQ(found(check_scan(shoulders), "unit"), "");
+    auto crop = loaded(face);  // eyes and nose alone: 40 mm high
+    for (auto& p : crop.scan.points_mm)
+        if (std::abs(p.y() - 20) > 20) p.setConstant(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(found(check_scan(crop), "unit"), "");
+}
+
+TEST(Doctor, one_lost_decimal_point_is_a_landmark_off_the_scan_and_no_unit) {
+    auto scan = loaded(make_face());
+    scan.landmarks = moved(scan.landmarks, {{"eye_outer_left", {400, 0, 0}}});
+    const auto findings = check_scan(scan);
+    EXPECT_EQ(found(findings, "unit"), "");
+    EXPECT_THAT(found(findings, "landmarks-off-scan"), HasSubstr("error: landmarks lie off the scan: eye_outer_left"));
+}
+
+TEST(Doctor, a_unit_that_the_table_has_wrong_is_mended_in_the_table) {
+    auto scan =
+        loaded(mapped(make_face(), [](auto p) { return geometry::Point(10 * p); }));  // mm, and the table says cm
+    scan.entry.layout = DatabaseLayout::manifest;
+    scan.entry.unit = io::LengthUnit::centimetre;
+    EXPECT_THAT(found(check_scan(scan), "unit"),
+                HasSubstr("looks like millimetres, though manifest.csv says cm -> put mm in the column unit"));
+    scan.entry.unit = io::LengthUnit::millimetre;
+    EXPECT_THAT(found(check_scan(scan), "unit"), HasSubstr("looks like tenths of a millimetre"));
+}
+
+TEST(Doctor, what_forbids_the_use_of_a_scan_is_found_alone_in_the_same_words) {
+    EXPECT_THAT(reasons_to_refuse(loaded(make_face())), IsEmpty());
+    auto scan = loaded(mapped(make_face(), [](auto p) { return geometry::Point(0.1 * p); }));
+    scan.landmarks = moved(scan.landmarks, {{"chin", {0, 0, 12}}});
+    const auto all = check_scan(scan), reasons = reasons_to_refuse(scan);
+    ASSERT_EQ(reasons.size(), 2U);
+    EXPECT_EQ(reasons[0].kind, "unit");
+    EXPECT_EQ(reasons[1].kind, "landmarks-off-scan");
+    for (const auto& reason : reasons) EXPECT_THAT(all, testing::Contains(reason));
 }
 
 TEST(Doctor, a_turned_head_is_fine_in_a_pose_scan) {
@@ -149,12 +254,6 @@ TEST(Doctor, a_mirrored_scan_is_seen_by_its_texture_and_by_names_of_the_subjects
     scan.landmarks = face.landmarks;  // names that claim the subject's own side
     scan.entry.landmarks_file = "bs000_N_N_0.csv";
     EXPECT_THAT(found(check_scan(scan), "sides"), HasSubstr("named left lie at smaller x"));
-}
-
-/// As a PLY has it: no lattice.
-MadeFace as_mesh(MadeFace face) {
-    face.scan.rows = face.scan.cols = 0;
-    return face;
 }
 
 TEST(Doctor, a_flipped_texture_on_an_upright_face_is_a_warning_about_the_texture) {
@@ -272,6 +371,51 @@ TEST(Doctor, landmarks_off_the_surface_are_named_with_their_distance) {
     for (const auto name : geometry::standard_landmark_names()) all[std::string(name)] = {0, 0, 40};
     face.landmarks = moved(make_face().landmarks, all);
     EXPECT_THAT(found(check_scan(loaded(face)), "landmarks-off-scan"), HasSubstr("pair the files again"));
+}
+
+/// The made face with every fourth point of every fourth row: 8 mm apart.
+MadeFace thinned(const MadeFace& face, bool faces) {
+    MadeFace thin = face;
+    thin.scan = {};
+    const int cols = (face.scan.cols + 3) / 4;
+    for (int row = 0; row < face.scan.rows; row += 4)
+        for (int col = 0; col < face.scan.cols; col += 4)
+            thin.scan.points_mm.push_back(face.scan.points_mm[static_cast<std::size_t>(row * face.scan.cols + col)]);
+    for (int i = 0; faces && i + cols < static_cast<int>(thin.scan.points_mm.size()); ++i)
+        if (i % cols + 1 < cols) {
+            const auto a = static_cast<std::uint32_t>(i), up = a + static_cast<std::uint32_t>(cols);
+            thin.scan.faces.add(std::array{a, a + 1, up + 1, up});
+        }
+    return thin;
+}
+
+TEST(Doctor, landmarks_are_measured_to_the_surface_and_not_to_its_points) {
+    for (const bool faces : {true, false}) {  // of a mesh and of a cloud
+        auto face = thinned(make_face(), faces);
+        // In the middle of a cell: 5.7 mm from every vertex, on the cheek, where the surface is nearly flat.
+        const auto cols = static_cast<std::size_t>(16);
+        const auto& p = face.scan.points_mm;
+        const std::size_t a = 8 * cols + 12;
+        const geometry::Point middle = (p[a] + p[a + cols + 1]) / 2;
+        const geometry::Landmarks on({{"cheek", middle, ""}});
+        const geometry::Landmarks off({{"cheek", middle + geometry::Vector(0, 0, 6), ""}});
+        EXPECT_GT(nearest_scan_points(face.scan, on)[0].distance_mm, 5);
+        EXPECT_LT(landmark_distances_mm(face.scan, on)[0], faces ? 1e-9 : 1.0);
+        EXPECT_NEAR(landmark_distances_mm(face.scan, off)[0], 5, 1);  // the surface slopes there
+        EXPECT_GE(landmark_distances_mm(face.scan, on, 20)[0], 5);    // near enough to be told by a point
+        auto scan = loaded(face);
+        scan.landmarks = on;
+        EXPECT_EQ(found(check_scan(scan), "landmarks-off-scan"), "");
+    }
+    auto lattice = make_face();
+    const geometry::Landmarks between(
+        {{"cheek", (lattice.scan.points_mm[1000] + lattice.scan.points_mm[1062]) / 2, ""}});
+    EXPECT_LT(landmark_distances_mm(lattice.scan, between)[0], 1e-9);
+    for (std::size_t i = 0; i < lattice.scan.points_mm.size(); ++i)  // half of it stands a metre behind
+        if (i % 61 >= 1062 % 61) lattice.scan.points_mm[i].z() -= 1000;
+    const geometry::Point edge = lattice.scan.points_mm[1061];
+    const geometry::Landmarks jump({{"cheek", edge - geometry::Vector(-1, 0, 500), ""}});
+    EXPECT_GT(landmark_distances_mm(lattice.scan, jump)[0], 400);  // nothing was measured in between
 }
 
 TEST(Doctor, a_one_sided_scan_that_moves_the_other_corner_is_an_error) {

@@ -1,8 +1,11 @@
 #include "preprocessing/cleaning.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
+#include "database/doctor.h"
 #include "tests/support/analytic_face.h"
 
 namespace mimik::preprocessing {
@@ -34,6 +37,15 @@ TEST(Cleaning, takes_out_exactly_the_spikes_that_were_put_in) {
     const auto cleaned = clean(scan, {}, &report);
     EXPECT_EQ(report.spikes, 4U);
     for (const auto i : spikes) EXPECT_FALSE(cleaned.valid(i));
+
+    // The doctor counts by the same rule and the same limit.
+    EXPECT_EQ(database::DoctorOptions{}.spike_mm, CleaningOptions{}.spike_mm);
+    database::LoadedScan loaded;
+    loaded.scan = scan;
+    const auto findings = database::check_scan(loaded);
+    EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const auto& finding) {
+        return finding.kind == "spikes" && finding.what.starts_with("4 points");
+    }));
 }
 
 TEST(Cleaning, takes_out_a_stray_tuft_and_a_wall_behind_the_head) {
