@@ -92,8 +92,8 @@ Chosen choose(const Arguments& arguments, const preprocessing::Workspace& worksp
     const modeling::ExpressionSource source{arguments.source, {arguments.target}};
     for (const auto& typed : arguments.action_units) {
         const auto [text, magnitude] = facs::split_magnitude(typed);
-        auto model = modeling::model_from_workspace(workspace, catalogue, catalogue.expression(text), source,
-                                                    arguments.method.model_options());
+        auto model = modeling::model_from_workspace(workspace, catalogue, expression_named(workspace, catalogue, text),
+                                                    source, arguments.method.model_options());
         for (const auto& scan : model.unusable_scans)
             chosen.failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression.name(), scan));
         add(std::move(model), magnitude);

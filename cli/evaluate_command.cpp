@@ -50,29 +50,28 @@ int run(Arguments& arguments) {
     refuse_doubles("--method", arguments.methods);
     options.methods.clear();
     for (const auto& name : arguments.methods) options.methods.push_back(animation::method_by_name(name));
-    options.expressions = expressions_named(catalogue, "--expression", arguments.expressions);
+    options.expressions = expressions_named(workspace, catalogue, "--expression", arguments.expressions);
     options.reference = !arguments.no_reference;
     options.whole_face = !arguments.no_whole_face;
     const evaluation::PerformanceReader reader(workspace);
     const auto plan = evaluation::plan_experiment(workspace, catalogue, options, reader.has_truth());
-    const std::filesystem::path folder = arguments.output;
-    if (!folder.empty()) check_output_folder(folder, arguments.dry_run);
+    const std::filesystem::path folder =
+        arguments.output.empty() ? workspace.root() / "scores" : std::filesystem::path(arguments.output);
+    check_output_folder(folder, arguments.dry_run);
     if (arguments.dry_run) return say_plan(arguments, plan);
     evaluation::ExperimentReport report;
     {
         Progress progress(arguments.common, "evaluate", plan.units());
-        report = evaluation::run_experiment(reader, catalogue, plan,
-                                            folder.empty() ? std::filesystem::path() : folder / "cases.csv",
+        report = evaluation::run_experiment(reader, catalogue, plan, folder / "cases.csv",
                                             [&](const std::string& what) { progress.advance(what); });
     }
     const auto markdown = report::to_markdown(report), json = report::to_json(report);
-    if (!folder.empty()) {
-        base::write_atomically(folder / "scores.md", markdown);
-        base::write_atomically(folder / "scores.csv", report::to_csv(report));
-        base::write_atomically(folder / "scores.json", json);
-    }
+    base::write_atomically(folder / "scores.md", markdown);
+    base::write_atomically(folder / "scores.csv", report::to_csv(report));
+    base::write_atomically(folder / "scores.json", json);
     std::cout << (arguments.common.json ? json : markdown) << std::flush;
-    if (!arguments.common.json && !arguments.common.quiet) std::cerr << fmt::format("{:.1f} s\n", report.seconds);
+    if (!arguments.common.json && !arguments.common.quiet)
+        std::cerr << fmt::format("{:.1f} s; every case is in {}\n", report.seconds, (folder / "cases.csv").string());
     return report.failures.empty() ? exit_done : exit_done_with_failures;
 }
 
@@ -91,7 +90,9 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     auto arguments = std::make_shared<Arguments>();
     auto& options = arguments->options;
     command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
-    command->add_option("--method", arguments->methods, "Methods to score: " + method_names())
+    command
+        ->add_option("--method", arguments->methods,
+                     "Methods to score (mean is --source mean of the other commands): " + method_names())
         ->delimiter(',')
         ->capture_default_str();
     for (const auto& expression : evaluation::ExperimentOptions::thesis_expressions())
@@ -106,7 +107,8 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     command->add_flag("--no-reference", arguments->no_reference,
                       "Leave out the true-field reference of synthetic databases");
     command->add_flag("--no-whole-face", arguments->no_whole_face, "Score the active zone only (faster)");
-    add_output_folder(*command, arguments->output, "Folder for scores.md, scores.csv, scores.json and cases.csv");
+    add_output_folder(*command, arguments->output,
+                      "Folder for scores.md, scores.csv, scores.json and cases.csv (default: scores in the workspace)");
     command->add_flag("--dry-run", arguments->dry_run, "Say time and disk, do nothing");
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

@@ -30,7 +30,7 @@ int run(Arguments& arguments) {
                                              ? workspace.root() / "models" / arguments.method.variant_name()
                                              : std::filesystem::path(arguments.output);
     // A word mistyped is found out before any work.
-    const auto expressions = expressions_named(catalogue, "--expression", arguments.expressions);
+    const auto expressions = expressions_named(workspace, catalogue, "--expression", arguments.expressions);
     for (auto& source : arguments.sources) {
         source = subject_named(workspace, source);
         modeling::check_source(workspace, {source, {}}, arguments.method.model_options());

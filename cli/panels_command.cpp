@@ -58,7 +58,7 @@ std::vector<Planned> plan(const Arguments& arguments, const preprocessing::Works
             throw InputError(
                 fmt::format("--au {}: the magnitudes of a series stand in --series; give the AU alone", text));
         auto request = arguments.request;
-        request.expression = catalogue.expression(typed.text);
+        request.expression = expression_named(workspace, catalogue, typed.text);
         request.method_name = arguments.method.name;
         request.model = arguments.method.model_options();
         request.animation = arguments.method.animation_options();
@@ -129,7 +129,7 @@ int say_plan(const Arguments& arguments, const std::vector<Planned>& planned) {
 void tell(const std::filesystem::path& picture, const ComparisonFigure& figure) {
     std::cout << fmt::format("{}: {} panels", picture.string(), figure.panels);
     for (const auto& person : figure.people)
-        std::cout << fmt::format("; {} {:.2f} mm from the real scan, doing nothing {:.2f} mm", person.subject,
+        std::cout << fmt::format("; {} {:.2f} mm from its own scan of it, doing nothing {:.2f} mm", person.subject,
                                  person.zone_mm, person.zone_nothing_mm);
     std::cout << '\n';
 }

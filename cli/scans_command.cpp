@@ -185,8 +185,8 @@ struct FindingGroup {
 };
 
 /// Worst first; otherwise in the order of the scans.
-std::vector<FindingGroup> grouped(const std::vector<const ScanEntry*>& scans, const ScanIndexResult& result,
-                                  bool notes) {
+std::vector<FindingGroup> groups_of(const std::vector<const ScanEntry*>& scans, const ScanIndexResult& result,
+                                    bool notes) {
     std::vector<FindingGroup> groups;
     std::map<std::tuple<Severity, std::string, std::string>, std::size_t> place;
     for (std::size_t i = 0; i < scans.size(); ++i)
@@ -217,7 +217,7 @@ void print_findings(const std::vector<const ScanEntry*>& scans, const ScanIndexR
             for (const auto& remark : summary.remarks)
                 std::cout << fmt::format("\n{}: {}\n", one_line(scans[i]->id.name()), one_line(remark));
     }
-    for (const auto& group : grouped(scans, result, all)) {
+    for (const auto& group : groups_of(scans, result, all)) {
         constexpr std::size_t most = 3;
         const std::size_t shown = all || group.scans.size() == most + 1 ? group.scans.size() : most;
         std::cout << fmt::format("\n{} ({}): {} scan{}\n", to_string(group.first->severity), group.first->kind,
@@ -234,7 +234,7 @@ void print_findings(const std::vector<const ScanEntry*>& scans, const ScanIndexR
 void print_json(const ScanDatabase& database, const std::vector<const ScanEntry*>& scans,
                 const ScanIndexResult& result) {
     auto counts = nlohmann::ordered_json::array();
-    for (const auto& group : grouped(scans, result, true))
+    for (const auto& group : groups_of(scans, result, true))
         counts.push_back({{"severity", to_string(group.first->severity)},
                           {"kind", group.first->kind},
                           {"mend", group.first->mend},

@@ -31,7 +31,6 @@ public:
 
     /// @param unit  one line of text, not stored before. @throws InputError if the disk takes no more.
     void append(const std::string& unit, std::span<const CaseRow> rows);
-    [[nodiscard]] bool has(const std::string& unit) const { return units_.contains(unit); }
     [[nodiscard]] std::size_t units() const { return units_.size(); }
 
     /// All rows that were appended, in that order. @throws InputError naming the file if they cannot be read back

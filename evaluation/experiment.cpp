@@ -27,6 +27,7 @@ public:
         : reader_(reader), catalogue_(catalogue), plan_(plan), store_(store), progress_(progress) {}
 
     void run() {
+        for (const auto& reason : plan_.left_out) failures_.add(reason);
         find_usable();
         for (const auto& planned : plan_.expressions) score(planned);
     }
@@ -56,10 +57,10 @@ private:
         const auto cast = gather_cast(reader_, task, performances, plan_.methods, failures_);
         const auto& code = planned.expression.code();
         const std::size_t count = cast.participants.size();
-        if (count < 3)
-            throw InputError(
-                fmt::format("expression '{}': {} subjects are left; an experiment needs three or more ({})", code,
-                            count, fmt::join(failures_.sorted(), "; ")));
+        if (count < fewest_subjects)
+            return failures_.add(
+                fmt::format("expression '{}': left out: {} subject{} left; an experiment needs {} or more", code, count,
+                            count == 1 ? " is" : "s are", fewest_subjects));
         in_order(
             count,
             [&](std::size_t t) {
@@ -131,6 +132,8 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
     auto store = cases.empty() ? std::make_unique<CaseStore>() : std::make_unique<CaseStore>(cases);
     ExperimentRun run(reader, catalogue, plan, *store, progress);
     run.run();
+    if (store->units() == 0)
+        throw InputError(fmt::format("no expression is left to score ({})", fmt::join(run.failures(), "; ")));
     const auto table = scores_of([&](const auto& visit) { store->read(visit); });
     store->finish();
 

@@ -49,7 +49,7 @@ struct ExperimentReport {
 /// as they come.
 /// @param plan   of plan_experiment() for this workspace
 /// @param cases  where the rows are kept, one line per number; empty: nowhere that outlives the run
-/// @throws InputError if fewer than 3 subjects of an expression are left.
+/// An expression of which fewer than 3 subjects are left is left out and listed. @throws InputError if none is left.
 [[nodiscard]] ExperimentReport run_experiment(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
                                               const ExperimentPlan& plan, const std::filesystem::path& cases = {},
                                               const std::function<void(const std::string&)>& progress = {});

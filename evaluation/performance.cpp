@@ -25,7 +25,14 @@ PerformanceReader::PerformanceReader(const preprocessing::Workspace& workspace) 
 
 std::optional<TruthOrigin> PerformanceReader::truth_origin() const {
     if (!truth_) return std::nullopt;
-    return TruthOrigin{truth_->seed, truth_->face_model, truth_->variances};
+    TruthOrigin origin{truth_->seed, truth_->face_model, truth_->expressions, truth_->subjects.size(), 0,
+                       false,        truth_->variances,  truth_->scanner};
+    for (const auto& scan : truth_->scans)
+        if (scan.neutral())
+            origin.neutrals = std::max(origin.neutrals, scan.repetition + 1);
+        else
+            origin.repeat = origin.repeat || scan.repetition > 0;
+    return origin;
 }
 
 void PerformanceReader::check_neutral(const std::string& subject) const {

@@ -13,11 +13,15 @@
 
 namespace mimik::evaluation {
 
-/// Which random numbers and faces a database with a truth was made of, and how far those spread, as truth.json has it.
+/// What a database with a truth can be made again from, as truth.json has it: which random numbers and faces, who and
+/// what, how far those spread, and how they were scanned and marked.
 struct TruthOrigin {
     std::uint64_t seed = 0;
-    std::string face_model;
-    std::map<std::string, double> variances;
+    std::string face_model, expressions;
+    std::size_t subjects = 0;
+    int neutrals = 0;     ///< scans of each subject at rest
+    bool repeat = false;  ///< a second scan of each expression
+    std::map<std::string, double> variances, scanner;
 };
 
 /// Reads performances from a workspace, and their truth from its database if that has one. An experiment reads a face

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/errors.h"
 #include "evaluation/score.h"
@@ -81,11 +82,15 @@ ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const 
         PlannedExpression planned{expression, {}};
         for (const auto& subject : plan.subjects)
             if (auto id = workspace.scan_of(subject, expression)) planned.performances.push_back(std::move(*id));
-        if (planned.performances.size() < 3)
-            throw InputError(fmt::format("{}: expression '{}': {} subjects show it; an experiment needs three or more",
-                                         workspace.root().string(), expression.code(), planned.performances.size()));
-        plan.expressions.push_back(std::move(planned));
+        if (planned.performances.size() < fewest_subjects)
+            plan.left_out.push_back(fmt::format(
+                "expression '{}': left out: {} subject{} it; an experiment needs {} or more", expression.code(),
+                planned.performances.size(), planned.performances.size() == 1 ? " shows" : "s show", fewest_subjects));
+        else
+            plan.expressions.push_back(std::move(planned));
     }
+    if (plan.expressions.empty())
+        throw InputError(fmt::format("{}: {}", workspace.root().string(), fmt::join(plan.left_out, "; ")));
     return plan;
 }
 

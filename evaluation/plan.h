@@ -15,6 +15,9 @@ namespace mimik::evaluation {
 /// where there is none.
 [[nodiscard]] std::string_view bound_of(animation::SourceKind kind);
 
+/// A source, a target and one more, or there is no mean of the others.
+constexpr std::size_t fewest_subjects = 3;
+
 struct ExperimentOptions {
     std::vector<facs::Expression> expressions = thesis_expressions();
     std::vector<animation::MethodPointer> methods = {
@@ -39,6 +42,7 @@ struct PlannedExpression {
 struct ExperimentPlan {
     std::vector<std::string> subjects;  ///< those who may be shown
     std::vector<PlannedExpression> expressions;
+    std::vector<std::string> left_out;              ///< expressions that too few subjects show, with the reason
     std::vector<animation::MethodPointer> methods;  ///< "nothing" first, then those asked for, then the true fields
     bool whole_face = true;
     std::size_t max_sources = 0;  ///< 0 = all
@@ -49,7 +53,8 @@ struct ExperimentPlan {
 };
 
 /// @param truth  whether the database has one
-/// @throws InputError for bad options, an expression that the catalogue lacks or that fewer than 3 subjects show.
+/// An expression that fewer than 3 subjects show is left out and listed. @throws InputError for bad options, an
+/// expression that the catalogue lacks, or if none is left.
 [[nodiscard]] ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace,
                                              const facs::FacsCatalogue& catalogue, const ExperimentOptions& options,
                                              bool truth);

@@ -37,6 +37,9 @@ public:
     [[nodiscard]] const std::string& name() const { return name_; }    ///< "AU12_L", "AU12+AU15", "HAPPY"
     [[nodiscard]] std::span<const UnitOnSide> units() const { return units_; }  ///< of a bare word: none
 
+    /// A word of the database's own, such as "SNEER" or "CHEW-GUM": neither units nor an emotion of Bosphorus.
+    [[nodiscard]] bool own_word() const { return group_ == "OTHER"; }
+
     /// The same Action Unit on both sides; empty if this is not one unit on one side.
     [[nodiscard]] std::optional<Expression> on_both_sides() const;
 

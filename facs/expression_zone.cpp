@@ -16,7 +16,9 @@ std::vector<Side> sides_of(const SidedUnit& sided) {
 ExpressionZone::ExpressionZone(const FacsCatalogue& catalogue, const Expression& expression,
                                const geometry::Landmarks& landmarks)
     : unit_mm_(geometry::outer_eye_distance_mm(landmarks)) {
-    for (const auto& sided : catalogue.units(expression))
+    const auto units = catalogue.units(expression);
+    whole_face_ = units.empty();
+    for (const auto& sided : units)
         for (const auto side : sides_of(sided))
             for (const auto& ellipse : sided.unit->zone) {
                 const geometry::Point centre = place(ellipse.centre, landmarks, side);
@@ -26,6 +28,7 @@ ExpressionZone::ExpressionZone(const FacsCatalogue& catalogue, const Expression&
 }
 
 double ExpressionZone::distance(const geometry::Point& position_mm) const {
+    if (whole_face_) return -1.0;
     double nearest = std::numeric_limits<double>::infinity();
     for (const auto& e : ellipses_) {
         const double dx = (position_mm.x() - e.x) / e.rx, dy = (position_mm.y() - e.y) / e.ry;

@@ -450,6 +450,7 @@ std::optional<Expression> FacsCatalogue::find_expression(const std::string& text
 
 std::vector<SidedUnit> FacsCatalogue::units(const Expression& expression) const {
     // A word that was read without a catalogue has no units yet: of a scan's name, or of a model's file.
+    if (expression.own_word() && !find_expression(expression.code())) return {};
     const auto known = expression.units().empty() ? this->expression(expression.code()) : expression;
     std::vector<SidedUnit> units;
     for (const auto& part : known.units()) {

@@ -87,8 +87,9 @@ public:
     [[nodiscard]] Expression expression(const std::string& text) const;
     /// The same; empty if it is not in the catalogue.
     [[nodiscard]] std::optional<Expression> find_expression(const std::string& text) const;
-    /// What the catalogue knows of an expression's units; of an emotion, of its prototype's.
-    /// @throws InputError for a word, or naming a unit, that is not in the catalogue.
+    /// What the catalogue knows of an expression's units; of an emotion, of its prototype's. A database's own word that
+    /// the catalogue lacks has none: nobody knows where it moves the face, so it is looked for everywhere.
+    /// @throws InputError naming a unit or an emotion that is not in the catalogue.
     [[nodiscard]] std::vector<SidedUnit> units(const Expression& expression) const;
 
 private:

@@ -52,7 +52,6 @@ public:
     [[nodiscard]] double bending_energy() const;  ///< trace(W^T K W) >= 0
     [[nodiscard]] std::size_t size() const { return centres_mm_.size(); }
     [[nodiscard]] SplineKernel kernel() const { return kernel_; }
-    [[nodiscard]] std::span<const Point> centres_mm() const { return centres_mm_; }
     [[nodiscard]] std::span<const Vector> weights() const { return weights_; }  ///< w_i, in the given coordinates
     [[nodiscard]] const Transform& affine() const { return affine_; }
 

@@ -92,7 +92,7 @@ PlacedControls place_controls(const facs::FacsCatalogue& catalogue, const facs::
             else if (!near(placed.controls, p, apart_mm))
                 placed.controls.push_back({fmt::format("coverage_{}_{}", row, col), facs::ControlKind::coverage, p});
         });
-        if (2 * off_the_face > in_zone)
+        if (!zone.whole_face() && 2 * off_the_face > in_zone)
             placed.left_out.push_back(fmt::format("{} of {} coverage points meet no surface", off_the_face, in_zone));
     }
     // The anchors' lattice reaches beyond every face, too: what meets none is no loss worth a word.

@@ -111,7 +111,12 @@ ExpressionGauge::ExpressionGauge(const facs::FacsCatalogue& catalogue, const fac
     options_.check();
     const auto units = catalogue.units(expression);
     begun_.expression = expression;
-    begun_.moves_upper_face = begun_.moves_lower_face = false;
+    if (units.empty() && !options_.coverage_points)
+        throw InputError(fmt::format(
+            "expression '{}' has no muscle points, since it is a word that the catalogue lacks, and the thesis "
+            "method has no others; take the default method, or name its units in a catalogue of your own",
+            expression.code()));
+    begun_.moves_upper_face = begun_.moves_lower_face = units.empty();
     for (const auto& sided : units) (sided.unit->lower_face ? begun_.moves_lower_face : begun_.moves_upper_face) = true;
     // Where anchors hold the rest of the face, nothing is cut off at the border that the unit does move.
     if (options_.anchors)
@@ -248,12 +253,6 @@ ExpressionModel ExpressionMean::mean() const {
         mean.points[k].projection_mm /= count_[k];
     }
     return mean;
-}
-
-ExpressionModel mean_expression(std::span<const ExpressionModel> models) {
-    ExpressionMean mean;
-    for (const auto& model : models) mean.add(model);
-    return mean.mean();
 }
 
 std::string variant_suffix(const ModelOptions& options, const ModelOptions& usual) {

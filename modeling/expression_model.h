@@ -151,7 +151,6 @@ private:
     std::map<std::string, std::size_t> place_;  // of a point, by name
     std::vector<double> count_;                 // per point
 };
-[[nodiscard]] ExpressionModel mean_expression(std::span<const ExpressionModel> models);
 
 /// @throws InputError if it is none that can be animated: no point, a name twice, a width of 0, a number that is not
 /// finite.

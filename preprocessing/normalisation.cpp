@@ -65,6 +65,4 @@ Transform rigid_by_landmarks(const Landmarks& source, const Landmarks& target) {
     return least_squares(source, target, false);
 }
 
-double scale_of(const Transform& transform) { return std::cbrt(std::abs(transform.linear().determinant())); }
-
 }  // namespace mimik::preprocessing

@@ -26,7 +26,4 @@ inline constexpr std::array<std::string_view, 4> affine_landmarks = {"eye_outer_
 [[nodiscard]] geometry::Transform rigid_by_landmarks(const geometry::Landmarks& source,
                                                      const geometry::Landmarks& target);
 
-/// Uniform scale of a similarity (cube root of the determinant for any other transform).
-[[nodiscard]] double scale_of(const geometry::Transform& transform);
-
 }  // namespace mimik::preprocessing

@@ -220,6 +220,11 @@ std::string source_words(const ComparisonRequest& request) {
     return request.source == "mean" ? "the mean of the others" : request.source;
 }
 
+/// Faces that nobody has are called so in every picture.
+std::string synthetic_words(const Workspace& workspace) {
+    return workspace.made_with_truth() ? " (synthetic faces)" : "";
+}
+
 std::string magnitude_words(double magnitude) {
     return magnitude == 1.0 ? std::string() : fmt::format(", m = {:g}", magnitude);
 }
@@ -252,7 +257,7 @@ geometry::Landmarks without(const geometry::Landmarks& landmarks, const std::set
 
 /// Panels of one person, in the order of the thesis, then the coloured ones.
 void add_person(FigureFolder& folder, const Person& person, const geometry::Landmarks& landmarks,
-                const ComparisonRequest& request, double scale_mm) {
+                const ComparisonRequest& request, double scale_mm, bool synthetic) {
     const auto stem = [&](const char* what) { return person.role + "_" + what; };
     const Point centre_mm = centre_of(person.neutral.grid, request.bridged);
 
@@ -280,12 +285,16 @@ void add_person(FigureFolder& folder, const Person& person, const geometry::Land
     auto real = person.real->grid;
     for (auto& p : real.vertices_mm) p = person.real->neutral_from_scan * p;
     io::write_mesh(folder.file(stem("real.ply")), geometry::to_mesh(real, request.bridged));
-    auto& third = folder.add_panel(stem("real.ply"), "Real scan of the " + person.role, centre_mm);
+    auto& third = folder.add_panel(
+        stem("real.ply"), (synthetic ? "Synthetic scan of the " : "Real scan of the ") + person.role, centre_mm);
     folder.add_controls(third, person.real_controls, stem("real_controls"));
 
     const auto coloured = [&](const char* mesh, const std::string& words, double mean_mm) {
-        auto& panel = folder.add_panel(
-            stem(mesh), fmt::format("{} to real scan\nmean {:.2f} mm in the zone", words, mean_mm), centre_mm);
+        auto caption =
+            fmt::format("{} to {} scan\nmean {:.2f} mm in the zone", words, synthetic ? "synthetic" : "real", mean_mm);
+        // A picture must not show a failure without a word.
+        if (mean_mm > person.compared.zone_nothing_mm) caption += ":\nworse than doing nothing";
+        auto& panel = folder.add_panel(stem(mesh), caption, centre_mm);
         panel.scalar = {.attribute = "distance_mm", .label = "distance, mm", .range = std::array{0.0, scale_mm}};
     };
     coloured("animated.ply", "Animated", person.compared.zone_mm);
@@ -441,15 +450,22 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
     FigureFolder out(folder, request);
     const auto coincident = coincident_landmarks(people);
     for (const auto& person : people)
-        add_person(out, person, without(person.neutral.landmarks, coincident), request, figure.scale_mm);
+        add_person(out, person, without(person.neutral.landmarks, coincident), request, figure.scale_mm,
+                   workspace.made_with_truth());
+    for (const auto& person : figure.people)
+        if (person.zone_mm > person.zone_nothing_mm)
+            figure.remarks.push_back(fmt::format("{} on {}: worse than doing nothing ({:.2f} mm, {:.2f} mm)",
+                                                 request.expression.name(), person.subject, person.zone_mm,
+                                                 person.zone_nothing_mm));
     figure.panels = out.panels();
     // A row per person where both have a real scan; else what there is, without gaps.
     const bool rows = people.size() == 1 || (people.front().real && people.back().real);
     const int columns = rows ? 5 : static_cast<int>(figure.panels + 1) / 2;
-    figure.description = out.finish(
-        fmt::format("{}: {} on {}, {} method{}", expression_words(catalogue, request.expression), source_words(request),
-                    request.target, request.method_name, magnitude_words(request.magnitude)),
-        columns, 50);
+    figure.description =
+        out.finish(fmt::format("{}: {} on {}, {} method{}{}", expression_words(catalogue, request.expression),
+                               source_words(request), request.target, request.method_name,
+                               magnitude_words(request.magnitude), synthetic_words(workspace)),
+                   columns, 50);
     return figure;
 }
 
@@ -501,9 +517,10 @@ ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCa
         }
     }
     figure.panels = out.panels();
-    figure.description = out.finish(fmt::format("{} by magnitude: {} on {}, {} method", fmt::join(words, "; "),
-                                                source_words(request), request.target, request.method_name),
-                                    static_cast<int>(magnitudes.size()), 50);
+    figure.description =
+        out.finish(fmt::format("{} by magnitude: {} on {}, {} method{}", fmt::join(words, "; "), source_words(request),
+                               request.target, request.method_name, synthetic_words(workspace)),
+                   static_cast<int>(magnitudes.size()), 50);
     return figure;
 }
 

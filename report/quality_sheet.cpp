@@ -115,7 +115,8 @@ private:
             io::write_landmarks(panel.landmarks, geometry::transformed(face.landmarks, face.neutral_from_scan));
         }
         auto& page = description.page;
-        page.title = fmt::format("{}: {} scans; landmarks blue, bridged surface green", subject_, order.size());
+        page.title = fmt::format("{}: {} {}scans; landmarks blue, bridged surface green", subject_, order.size(),
+                                 workspace_.made_with_truth() ? "synthetic " : "");
         page.panel_width_px = 270;
         page.panel_height_px = 320;
         page.font_size_px = 15;

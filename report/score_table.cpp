@@ -194,7 +194,12 @@ std::string to_json(const evaluation::ExperimentReport& report) {
         {"alignment", report.alignment},
         {"truth", report.truth ? nlohmann::json{{"seed", report.truth->seed},
                                                 {"face_model", report.truth->face_model},
-                                                {"variances", report.truth->variances}}
+                                                {"subjects", report.truth->subjects},
+                                                {"expressions", report.truth->expressions},
+                                                {"neutrals", report.truth->neutrals},
+                                                {"repeat", report.truth->repeat},
+                                                {"variances", report.truth->variances},
+                                                {"scanner", report.truth->scanner}}
                                : nlohmann::json()},
         {"reference_bands", bands},
         {"fit", known_bands.empty() ? nlohmann::json() : nlohmann::json(fit_to_be_scored_on(known_bands))},

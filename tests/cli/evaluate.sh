@@ -7,6 +7,7 @@ borrow_workspace
 "$mimik" evaluate work1 --expression 4,12 --method default,mean --no-reference -o scores --json --quiet >scores.json
 for name in scores.md scores.csv scores.json cases.csv; do [ -s "scores/$name" ] || fail "scores/$name is not there"; done
 cmp scores.json scores/scores.json
+for line in '"marking_jitter": 1.0' '"spikes": 0.0' '"expressions": "4,12,12L"' '"neutrals": 2' '"subjects": 3'; do grep -qF "$line" scores.json || fail "scores.json has no $line"; done
 claim "scores are written as text, table and JSON, and JSON is what is printed"
 # A comment line ends each unit of work, an expression of a target. No comma stands in a subject, an expression or a
 # method: a row is split at every comma that is not within quotes.

@@ -22,6 +22,11 @@ grep -q '"kernel": "r2logr"' "$other" && grep -q '"anchors": false' "$other" && 
 grep -q "kernel r2logr, here r" err.txt
 "$mimik" animate work1 --target bs001 --model models/bs000/AU12.json -o stored.glb >out.txt 2>err.txt
 ! grep -F "made otherwise" err.txt || fail "a difference where there is none"
+"$mimik" preprocess "$shared/db1" -o work2 --subject bs001,bs002 --expression 4 --quiet >/dev/null
+"$mimik" animate work2 --target bs001 --model models/bs000/AU12.json -o elsewhere.ply --json >elsewhere.json 2>err.txt
+awk '/"largest_displacement_mm"/ { sub(/.*: */, ""); if ($0 + 0 > 3) good = 1 } END { exit !good }' elsewhere.json || fail "no smile elsewhere"
+grep -q 'average face' elsewhere.json || { cat elsewhere.json; fail "no note on the average face"; }
+claim "a model animates a face of another workspace where nobody shows the expression, and says on whose average it stands"
 claim "a stored model says how it was made, keeps its file from others, and animates as the one that is measured does"
 
 expect_code 2 $'the thesis method has no mean\nbs000' "$mimik" model work1 -o thesis_models --method thesis

@@ -21,6 +21,10 @@ expect_code 1 "mimik-figure is neither" without_drawing_program panels work1 --s
 for name in source_neutral source_animated source_real target_neutral target_animated target_real; do
   [ -s "panels/AU12_bs000_on_bs001_default/$name.ply" ]
 done
+grep -q 'Synthetic scan of the target' panels/AU12_bs000_on_bs001_default/figure.json
+grep -q 'default method (synthetic faces)"' panels/AU12_bs000_on_bs001_default/figure.json
+! grep -qi 'real scan' panels/AU12_bs000_on_bs001_default/figure.json || fail "a synthetic scan is called real"
+claim "synthetic faces are captioned so"
 claim "without the drawing program the faces of the panels are there and 1 says that the picture is not"
 if can_draw; then
   "$mimik" panels work1 --source mean --target bs001 --au 4 --method default -o panels --quiet

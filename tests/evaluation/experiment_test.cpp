@@ -177,9 +177,9 @@ TEST_F(Experiment, a_method_that_looks_at_the_truth_can_be_asked_for_and_stands_
 
 TEST_F(Experiment, what_cannot_be_scored_is_refused_by_name_before_any_work) {
     auto options = smile_options();
-    options.expressions = test::expressions({"12", "17"});
+    options.expressions = test::expressions({"17", "20"});
     EXPECT_THAT(message_of<InputError>([&] { (void)run(*workspace_, options); }),
-                HasSubstr("expression '17': 0 subjects show it"));
+                testing::AllOf(HasSubstr("expression '17': left out: 0 subjects show it"), HasSubstr("'20'")));
     options.expressions = test::expressions({"12", "12"});
     EXPECT_THAT(message_of<InputError>([&] { (void)run(*workspace_, options); }), HasSubstr("'12' is asked for twice"));
     options = smile_options();
@@ -192,6 +192,15 @@ TEST_F(Experiment, what_cannot_be_scored_is_refused_by_name_before_any_work) {
     EXPECT_THAT(unknown, HasSubstr("'best' is unknown; there are: "));
     for (const auto* name : {"default", "mean", "nothing", "thesis", "true-field", "true-field-mean"})
         EXPECT_THAT(unknown, HasSubstr(name));
+}
+
+TEST_F(Experiment, an_expression_that_nobody_shows_is_named_and_the_rest_is_scored) {
+    auto options = smile_options();
+    options.expressions = test::expressions({"17", "12"});
+    const auto report = run(*workspace_, options);
+    EXPECT_THAT(report.failures, ElementsAre(HasSubstr("expression '17': left out: 0 subjects show it")));
+    ASSERT_EQ(report.expressions.size(), 1U);
+    EXPECT_EQ(row(report, "default").per_expression.at("12").cases, 6U);
 }
 
 TEST_F(Experiment, a_damaged_face_and_a_hidden_subject_take_no_part_and_the_rest_is_scored) {

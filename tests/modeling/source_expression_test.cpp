@@ -45,8 +45,9 @@ TEST_F(SourceExpression, an_expression_is_found_however_it_is_spelt) {
 TEST_F(SourceExpression, a_mean_leaves_out_the_target_and_takes_all_others) {
     const auto mean = model("12", {"mean", {"bs001"}});
     EXPECT_THAT(mean.sources, ElementsAre("bs000_N_N_0", "bs000_LFAU_12_0", "bs002_N_N_0", "bs002_LFAU_12_0"));
-    const std::array others = {model("12", {"bs000", {}}), model("12", {"bs002", {}})};
-    const auto by_hand = mean_expression(others);
+    ExpressionMean sum;
+    for (const auto* other : {"bs000", "bs002"}) sum.add(model("12", {other, {}}));
+    const auto by_hand = sum.mean();
     ASSERT_EQ(mean.points.size(), by_hand.points.size());
     for (std::size_t k = 0; k < mean.points.size(); ++k)
         EXPECT_EQ(mean.points[k].displacement_mm, by_hand.points[k].displacement_mm);

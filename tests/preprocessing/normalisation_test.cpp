@@ -1,5 +1,7 @@
 #include "preprocessing/normalisation.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,7 +59,7 @@ TEST(SimilarityNormalisation, recovers_a_known_turn_shift_and_scale) {
     const Transform scan_from_average = turned(-0.4, {5, 60, -300}, 1.3);
     const Transform found = similarity_normalisation(geometry::transformed(marks, scan_from_average), marks);
     EXPECT_LT((found * scan_from_average * Point(30, -20, 10) - Point(30, -20, 10)).norm(), 1e-9);
-    EXPECT_NEAR(scale_of(found), 1 / 1.3, 1e-12);
+    EXPECT_NEAR(std::cbrt(found.linear().determinant()), 1 / 1.3, 1e-12);
 }
 
 TEST(SimilarityNormalisation, keeps_the_expression_that_the_affine_one_takes_away) {

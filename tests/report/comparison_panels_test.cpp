@@ -87,6 +87,19 @@ TEST_F(ComparisonPanels, two_people_have_five_panels_each_and_every_file_that_is
     EXPECT_EQ(description.at("panels")[7].at("caption"), "(h) Real scan of the target");
 }
 
+TEST_F(ComparisonPanels, a_face_that_is_worse_than_doing_nothing_is_said_to_be) {
+    auto request = smile("bs000", "bs001");
+    EXPECT_EQ(description_of(panels(request, "good")).dump().find("worse than doing nothing"), std::string::npos);
+    request.magnitude = 6;
+    const auto figure = panels(request, "bad");
+    EXPECT_THAT(description_of(figure).at("panels")[8].at("caption").get<std::string>(),
+                testing::EndsWith("in the zone:\nworse than doing nothing"));
+    EXPECT_THAT(figure.remarks, testing::Contains(testing::HasSubstr("AU12 on bs001: worse than doing nothing (")));
+    // Doing nothing itself is not.
+    EXPECT_THAT(description_of(figure).at("panels")[9].at("caption").get<std::string>(),
+                testing::EndsWith("mm in the zone"));
+}
+
 TEST_F(ComparisonPanels, all_panels_of_a_person_share_one_centre_and_the_coloured_ones_one_scale) {
     const auto description = description_of(panels(smile("bs000", "bs001"), "centre"));
     std::set<json> centres, ranges;

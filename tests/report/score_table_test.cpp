@@ -37,7 +37,8 @@ evaluation::ExperimentReport smile_report() {
     report.expressions = test::expressions({"12"});
     report.zones = "truth";
     report.alignment = "true pose";
-    report.truth = evaluation::TruthOrigin{7, "some face model", {{"identity", 0.8}}};
+    report.truth = evaluation::TruthOrigin{
+        7, "some face model", "12,12L", 5, 2, true, {{"identity", 0.8}}, {{"marking_jitter", 0.5}}};
     report.nothing = {
         "doing nothing", animation::SourceKind::none, false, false, {{"12", score(0)}}, 0.0, 0.0, 0.0, {}};
     report.rows = {
@@ -66,8 +67,14 @@ TEST(ScoreTables, hold_what_the_report_holds) {
     EXPECT_EQ(row.at("share"), 0.5);
     EXPECT_EQ(row.at("expressions").at("12").at("explained"), 0.25);
     EXPECT_EQ(row.at("expressions").at("12").at("nothing_true_mm"), 3);
-    EXPECT_EQ(document.at("truth"),
-              (json{{"seed", 7}, {"face_model", "some face model"}, {"variances", {{"identity", 0.8}}}}));
+    EXPECT_EQ(document.at("truth"), (json{{"seed", 7},
+                                          {"face_model", "some face model"},
+                                          {"subjects", 5},
+                                          {"expressions", "12,12L"},
+                                          {"neutrals", 2},
+                                          {"repeat", true},
+                                          {"variances", {{"identity", 0.8}}},
+                                          {"scanner", {{"marking_jitter", 0.5}}}}));
     const auto csv = to_csv(report);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
     EXPECT_THAT(csv, HasSubstr("\"default\",one source,0,12,0.250000,"));

@@ -10,7 +10,8 @@ namespace mimik::test {
 inline evaluation::ExperimentReport report_of(double one, double mean, std::size_t sources) {
     evaluation::ExperimentReport report;
     report.expressions = evaluation::ExperimentOptions::thesis_expressions();
-    report.truth = evaluation::TruthOrigin{7, "some face model", {{"identity", 0.8}}};
+    report.truth = evaluation::TruthOrigin{
+        7, "some face model", "12,12L", 5, 2, true, {{"identity", 0.8}}, {{"marking_jitter", 0.5}}};
     for (const auto& [kind, explained, reference] : {std::tuple(animation::SourceKind::one_source, 0.3, false),
                                                      std::tuple(animation::SourceKind::one_source, one, true),
                                                      std::tuple(animation::SourceKind::all_but_target, mean, true)}) {

@@ -71,6 +71,9 @@ TEST_F(Synthesize, truth_holds_the_pose_and_the_displacement_from_the_resting_fa
     EXPECT_EQ(truth.face_model, "dome");
     EXPECT_EQ(truth.variances.at("identity"), options_.variances.identity);
     EXPECT_EQ(truth.variances.at("field_length_mm"), options_.variances.field_length_mm);
+    EXPECT_EQ(truth.expressions, options_.expressions);
+    EXPECT_EQ(truth.scanner.at("marking_jitter"), options_.scanner.marking_jitter);
+    EXPECT_EQ(truth.scanner.at("spikes"), options_.scanner.spikes);
     EXPECT_EQ(truth.landmark_vertices, model->landmark_vertices());
     EXPECT_EQ(truth.vertex_regions, model->vertex_regions());
     const auto subject = draw_subject(*model, "bs001", options_.seed, options_.variances);
