@@ -171,8 +171,7 @@ TEST(Doctor, every_way_to_turn_or_mirror_a_face_is_an_error_whose_mend_is_the_wa
     // One fault is one finding: a face that looks away is not mirrored, too.
     const auto away =
         check_scan(with_own_names(mapped(as_mesh(make_face()), [](P p) { return P(-p.x(), p.y(), -p.z()); })));
-    ASSERT_EQ(away.size(), 2U);
-    EXPECT_EQ(away[1].kind, "holes");  // of a bare cloud
+    EXPECT_EQ(std::count_if(away.begin(), away.end(), [](const auto& f) { return f.severity != Severity::note; }), 1);
 }
 
 TEST(Doctor, a_wrong_nose_tip_is_no_scan_seen_from_behind) {
