@@ -16,6 +16,7 @@
 #include "base/version.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
+#include "cli/expression_names.h"
 #include "cli/method_options.h"
 #include "cli/notes.h"
 #include "cli/regions_file.h"

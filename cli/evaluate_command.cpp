@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "cli/command.h"
+#include "cli/expression_names.h"
 #include "cli/method_options.h"
 #include "evaluation/experiment.h"
 #include "io/json_values.h"

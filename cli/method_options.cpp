@@ -1,7 +1,6 @@
 #include "cli/method_options.h"
 
 #include <filesystem>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,29 +16,12 @@ geometry::SplineKernel kernel_by_name(const std::string& name) {
     return name == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
 }
 
-facs::Expression expression_named(const preprocessing::Workspace& workspace, const facs::FacsCatalogue& catalogue,
-                                  const std::string& typed) {
-    const auto word = facs::parse_expression(typed);
-    if (!word || !word->own_word() || catalogue.find_expression(typed)) return catalogue.expression(typed);
-    std::set<std::string> own;
-    for (const auto& scan : workspace.scans())
-        if (!workspace.hidden(scan.subject) && scan.expression().own_word()) own.insert(scan.expression().code());
-    if (own.contains(word->code())) return *word;
-    try {
-        return catalogue.expression(typed);
-    } catch (const InputError& e) {
-        if (own.empty()) throw;
-        throw InputError(fmt::format("{}, nor a word of this workspace ({})", e.what(), fmt::join(own, ", ")));
-    }
-}
-
-std::vector<facs::Expression> expressions_named(const preprocessing::Workspace& workspace,
-                                                const facs::FacsCatalogue& catalogue, const std::string& option,
+std::vector<facs::Expression> expressions_named(const facs::FacsCatalogue& catalogue, const std::string& option,
                                                 const std::vector<std::string>& typed) {
     std::vector<facs::Expression> expressions;
     std::vector<std::string> codes;
     for (const auto& text : typed) {
-        expressions.push_back(expression_named(workspace, catalogue, text));
+        expressions.push_back(catalogue.expression(text));
         codes.push_back(expressions.back().code());
     }
     refuse_doubles(option, codes);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/expression_names.h"
 #include "cli/method_options.h"
 #include "cli/notes.h"
 #include "cli/subject_names.h"

@@ -9,6 +9,7 @@
 
 #include "base/errors.h"
 #include "cli/command.h"
+#include "cli/expression_names.h"
 #include "cli/figure_start.h"
 #include "cli/method_options.h"
 #include "cli/notes.h"
