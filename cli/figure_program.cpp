@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/output_folder.h"
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
@@ -77,7 +78,7 @@ void draw(const report::FigureDescription& description, const std::string& outpu
         throw InputError(fmt::format("--output is '{}'; figures are written as .png", output));
     const auto figure = report::load_figure(description);
     const auto image = figures::render(figure);
-    io::write_png(output, image);
+    io::write_png(base::where_links_lead(output), image);
     if (common.json)
         std::cout << io::json_text(nlohmann::ordered_json{{"schema", 1},
                                                           {"output", output},
