@@ -21,6 +21,7 @@
 #include "cli/notes.h"
 #include "cli/regions_file.h"
 #include "cli/subject_names.h"
+#include "database/hidden_subjects.h"
 #include "io/json_values.h"
 #include "modeling/region_labels.h"
 #include "modeling/source_expression.h"
@@ -42,6 +43,7 @@ struct Arguments {
 modeling::ExpressionModel read_model(const preprocessing::Workspace& workspace, const std::string& file,
                                      const std::string& target, const modeling::ModelProvenance& here,
                                      std::vector<std::string>& remarks) {
+    database::refuse_hidden_file(file);  // it may lie in another workspace, whose lists hide others
     auto model = naming(file, [&] { return modeling::read_expression_model(file); });
     if (model.provenance)
         if (const auto other = modeling::differences(*model.provenance, here); !other.empty())

@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/expression_names.h"
 #include "cli/method_options.h"
+#include "cli/notes.h"
 #include "evaluation/experiment.h"
 #include "io/json_values.h"
 #include "report/score_table.h"
@@ -71,6 +72,7 @@ int run(Arguments& arguments) {
     base::write_atomically(folder / "scores.csv", report::to_csv(report));
     base::write_atomically(folder / "scores.json", json);
     std::cout << (arguments.common.json ? json : markdown) << std::flush;
+    if (!arguments.common.quiet) say_notes(report.remarks);
     if (!arguments.common.json && !arguments.common.quiet)
         std::cerr << fmt::format("{:.1f} s; every case is in {}\n", report.seconds, (folder / "cases.csv").string());
     return report.failures.empty() ? exit_done : exit_done_with_failures;

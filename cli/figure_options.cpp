@@ -25,7 +25,7 @@ void add_figure_options(CLI::App& command, FigureArguments& arguments) {
         command.add_option("--texture", given.textures, "PNG or JPEG on the face; once, or once a panel")
             ->allow_extra_args(false),
         command.add_flag("--textured", given.textured, "Use the image that each mesh file names"),
-        command.add_option("--unit", given.unit, "Of the files: mm, cm or m")->capture_default_str(),
+        command.add_option("--unit", given.unit, "Of the files: mm, cm, m or inch")->capture_default_str(),
         command
             .add_option("--view", given.views,
                         "front, left, right, three-quarter-left, three-quarter-right; once, or once a panel")

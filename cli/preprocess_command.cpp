@@ -2,12 +2,17 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/folder_lock.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/figure_start.h"
 #include "cli/notes.h"
@@ -16,6 +21,7 @@
 #include "facs/facs_catalogue.h"
 #include "io/json_values.h"
 #include "preprocessing/preprocess_run.h"
+#include "preprocessing/scan_reading.h"
 #include "preprocessing/workspace.h"
 #include "report/quality_sheet.h"
 
@@ -24,7 +30,8 @@ namespace {
 
 struct Arguments {
     Common common;
-    std::string database, output, catalogue_file;
+    std::string database, output, catalogue_file, unit = "mm";
+    std::vector<std::string> expressions;
     bool dry_run = false, sheets = false;
     preprocessing::PreprocessOptions options;
 };
@@ -101,25 +108,53 @@ int say_plan(const Arguments& arguments, const database::ScanDatabase& database,
     return exit_done;
 }
 
+/// Text becomes expressions here, once.
+std::vector<facs::Expression> parsed_expressions(const std::vector<std::string>& texts) {
+    std::vector<facs::Expression> expressions;
+    for (const auto& text : texts) {
+        const auto expression = facs::parse_expression(text);
+        if (!expression)
+            throw InputError(fmt::format("--expression: {} is no expression; give 12, 12L, HAPPY or the like",
+                                         base::in_quotes(text)));
+        expressions.push_back(*expression);
+    }
+    return expressions;
+}
+
+/// What can be done about scans that the doctor refuses.
+void print_way_out(const preprocessing::PreprocessReport& report) {
+    std::set<std::string> kinds;
+    for (const auto& failure : report.failures)
+        for (const auto& kind : preprocessing::kinds_that_refuse())
+            if (failure.reason.find(fmt::format(" ({}): ", kind)) != std::string::npos) kinds.insert(kind);
+    if (kinds.empty()) return;
+    std::cerr << fmt::format("mend the scans as it says{}, or take them as they are with --accept {}\n",
+                             kinds.contains("unit") ? ", give their unit with --unit" : "", fmt::join(kinds, ","));
+}
+
 int run(Arguments& arguments) {
-    const auto database = database::open_database(arguments.database);
+    arguments.options.expressions = parsed_expressions(arguments.expressions);
+    const auto database = database::open_database(arguments.database, io::parse_length_unit(arguments.unit));
     check_by_option({{"spike_mm", "--spike-mm"},
                      {"max_jump_mm", "--max-jump-mm"},
                      {"max_edge_mm", "--max-edge-mm"},
                      {"min_part", "--min-part"},
-                     {"trim", "--trim"}},
+                     {"trim", "--trim"},
+                     {"accept", "--accept"}},
                     [&] { arguments.options.check(); });
     preprocessing::check_workspace_place(database, arguments.output);
-    const auto scans = preprocessing::selected_scans(database, arguments.options);
+    const auto scans = preprocessing::scans_to_preprocess(database, arguments.output, arguments.options);
     const auto catalogue =
         arguments.catalogue_file.empty() ? facs::builtin_catalogue() : facs::read_catalogue(arguments.catalogue_file);
     check_output_folder(arguments.output, arguments.dry_run);
     if (arguments.dry_run) return say_plan(arguments, database, catalogue, scans);
+    const base::FolderLock lock(arguments.output, base::FolderLock::Use::write);  // sheets included
     preprocessing::PreprocessReport report;
     {
         Progress progress(arguments.common, "preprocess", scans.size());
-        report = preprocessing::preprocess_database(database, arguments.output, catalogue, arguments.options,
-                                                    [&](const std::string& scan) { progress.advance(scan); });
+        report = preprocessing::preprocess_database(
+            database, arguments.output, catalogue, arguments.options,
+            [&](const std::string& scan) { progress.advance(scan); }, &lock);
     }
     report::QualitySheetReport sheets;
     if (arguments.sheets) sheets = draw_sheets(arguments);
@@ -137,6 +172,7 @@ int run(Arguments& arguments) {
                                    {"up_to_date", report.up_to_date},
                                    {"failures", failures},
                                    {"subjects_left_out", report.left_out},
+                                   {"from_earlier_runs", report.from_earlier_runs},
                                    {"workspace", arguments.output}};
         if (arguments.sheets)
             document["sheets"] = {
@@ -144,8 +180,12 @@ int run(Arguments& arguments) {
         std::cout << io::json_text(document);
     } else {
         if (!arguments.common.quiet) print_remarks(report, database.remarks);
+        if (report.from_earlier_runs > 0 && !arguments.common.quiet)
+            std::cerr << fmt::format("note: {} scan{} of earlier runs stay in the workspace and are kept up to date\n",
+                                     report.from_earlier_runs, report.from_earlier_runs == 1 ? "" : "s");
         for (const auto& failure : report.failures)
             std::cerr << one_line(fmt::format("{}: {}", failure.scan, failure.reason)) << '\n';
+        print_way_out(report);
         for (const auto& subject : report.left_out)
             std::cerr << one_line(subject) << ": no usable neutral face, so the subject was left out\n";
         std::cout << fmt::format("{} faces preprocessed, {} already up to date, {} failed; workspace {}\n",
@@ -170,7 +210,15 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
         ->required();
     command->add_option("--subject", options.subjects, "Only these subjects (bs003,bs007)")->delimiter(',');
     command
-        ->add_option("--expression,--au", options.codes, "Only these expressions beside the neutrals (1,12,12L,HAPPY)")
+        ->add_option("--expression,--au", arguments->expressions,
+                     "Only these expressions beside the neutrals (1,12,12L,HAPPY)")
+        ->delimiter(',');
+    command
+        ->add_option("--unit", arguments->unit, "Unit of the scans of which manifest.csv says none: mm, cm, m or inch")
+        ->capture_default_str();
+    command
+        ->add_option("--accept", options.accept,
+                     "Take scans that these errors of 'scans --check' refuse: unit, frame, sides, landmarks-off-scan")
         ->delimiter(',');
     command->add_option("--rows", options.steps.gridding.rows, "Rows of the grid")->capture_default_str();
     command->add_option("--cols", options.steps.gridding.cols, "Columns of the grid")->capture_default_str();

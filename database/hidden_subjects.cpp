@@ -11,8 +11,10 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "database/file_origin.h"
 #include "database/manifest.h"
 #include "database/scan_id.h"
+#include "io/json_values.h"
 
 namespace mimik::database {
 namespace {
@@ -22,6 +24,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t max_list_bytes = 16 << 20;
 constexpr std::string_view list_name = "unallowed_subjects.txt";
 constexpr std::size_t most_remarks = 50;
+constexpr int levels_above_database = 2;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -148,6 +151,17 @@ private:
     std::string first_unmatched_;
 };
 
+/// @throws InputError where it cannot be read: then nobody knows whom it hides.
+std::string list_text(const fs::path& list) {
+    std::error_code ignored;
+    if (fs::is_directory(list, ignored))
+        throw InputError(
+            fmt::format("{}: is a folder, so nobody knows whom it hides; make it a text file with a subject "
+                        "a line, or give the folder another name",
+                        list.string()));
+    return base::read_text(list, most_hidden_list_bytes);
+}
+
 void add_manifest_subjects(const fs::path& manifest_file, const fs::path& file, std::vector<std::string>& subjects) {
     std::error_code error;
     if (!fs::is_regular_file(manifest_file, error)) return;
@@ -195,17 +209,69 @@ std::vector<fs::path> places_of(const fs::path& path) {
     return places;
 }
 
-void refuse_hidden_at(const fs::path& file) {
-    for (const auto& list : lists_up_from(file.parent_path(), 4)) {
-        const auto subjects = possible_subjects(file, list.file.parent_path());
-        const auto hidden = ListReader(base::read_text(list.file, most_hidden_list_bytes), list.file.string(), subjects)
-                                .read()
-                                .subjects;
-        for (const auto& subject : subjects)
-            if (is_hidden(hidden, subject))
-                throw InputError(fmt::format("{}: subject '{}' stands in {} and must not be shown; choose another",
-                                             file.string(), subject, list.file.string()));
+/// Of one list. @throws InputError if it holds one of the subjects.
+void refuse_listed(const fs::path& file, const fs::path& list, std::span<const std::string> subjects) {
+    const auto hidden = ListReader(list_text(list), list.string(), subjects).read().subjects;
+    for (const auto& subject : subjects)
+        if (is_hidden(hidden, subject))
+            throw InputError(fmt::format("{}: subject '{}' stands in {} and must not be shown; choose another",
+                                         file.string(), subject, list.string()));
+}
+
+/// The lists that a database goes by.
+void refuse_listed_in_database(const fs::path& file, const fs::path& database, std::span<const std::string> subjects) {
+    if (database.empty() || subjects.empty()) return;
+    for (const auto& place : places_of(database))
+        for (const auto& list : lists_up_from(place, levels_above_database)) refuse_listed(file, list.file, subjects);
+}
+
+/// What a workspace says of its database; empty if this folder is none.
+struct WorkspaceOrigin {
+    fs::path database;
+    std::vector<std::string> hidden;
+};
+WorkspaceOrigin workspace_at(const fs::path& folder) {
+    WorkspaceOrigin origin;
+    for (const char* name : {"workspace.json", "workspace.before.json"}) {
+        const auto file = folder / name;
+        std::error_code ignored;
+        if (!fs::is_regular_file(file, ignored)) continue;
+        try {
+            const auto document = io::parse_json(base::read_text(file, io::most_json_bytes), file.string());
+            origin.database = io::read_field<std::string>(document, "database");
+            origin.hidden = io::read_field<std::vector<std::string>>(document, "hidden_subjects");
+            return origin;
+        } catch (const InputError&) {
+            continue;  // of another program, or damaged: commands that take workspaces say so
+        }
     }
+    return origin;
+}
+
+constexpr int levels_above_file = 4;
+
+void refuse_hidden_at(const fs::path& file, const FileOrigin& origin) {
+    const auto with_origin = [&](std::vector<std::string> subjects) {
+        subjects.insert(subjects.end(), origin.subjects.begin(), origin.subjects.end());
+        return subjects;
+    };
+    for (const auto& list : lists_up_from(file.parent_path(), levels_above_file))
+        refuse_listed(file, list.file, with_origin(possible_subjects(file, list.file.parent_path())));
+    auto folder = file.parent_path();
+    for (int level = 0; level <= levels_above_file; ++level, folder = folder.parent_path()) {
+        if (const auto workspace = workspace_at(folder); !workspace.database.empty()) {
+            const auto subjects = with_origin(possible_subjects(file, folder));
+            for (const auto& subject : subjects)
+                if (is_hidden(workspace.hidden, subject))
+                    throw InputError(
+                        fmt::format("{}: subject '{}' was hidden when {} was made and must not be shown; "
+                                    "choose another",
+                                    file.string(), subject, folder.string()));
+            refuse_listed_in_database(file, workspace.database, subjects);
+        }
+        if (folder == folder.parent_path()) break;
+    }
+    refuse_listed_in_database(file, origin.database, origin.subjects);
 }
 
 }  // namespace
@@ -222,8 +288,7 @@ std::vector<fs::path> hidden_subjects_files(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code error, ignored;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-        if (base::equal_ignoring_case(it->path().filename().string(), list_name) && !it->is_directory(ignored))
-            files.push_back(it->path());
+        if (base::equal_ignoring_case(it->path().filename().string(), list_name)) files.push_back(it->path());
     if (error) {  // a folder that may be entered but not listed
         files.clear();
         if (fs::exists(folder / list_name, ignored)) files.push_back(folder / list_name);
@@ -242,9 +307,9 @@ HiddenSubjects hidden_subjects_of(const fs::path& folder, std::span<const std::s
     std::set<std::string> found;
     std::set<fs::path> seen;
     for (const auto& place : places_of(folder))
-        for (const auto& list : lists_up_from(place, 2)) {
+        for (const auto& list : lists_up_from(place, levels_above_database)) {
             if (!seen.insert(list.file).second) continue;
-            const auto text = base::read_text(list.file, most_hidden_list_bytes);
+            const auto text = list_text(list.file);
             auto entries = list.above || known == KnownSubjects::some
                                ? ListReader(text, list.file.string(), subjects).read()
                                : parse_hidden_subjects(text, list.file.string(), subjects);
@@ -263,7 +328,8 @@ std::string hidden_subjects_text(std::span<const std::string> hidden_subjects) {
 }
 
 void refuse_hidden_file(const fs::path& file) {
-    for (const auto& place : places_of(file)) refuse_hidden_at(place);
+    const auto origin = origin_of(file);
+    for (const auto& place : places_of(file)) refuse_hidden_at(place, origin);
 }
 
 }  // namespace mimik::database

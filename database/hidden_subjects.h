@@ -29,7 +29,8 @@ inline constexpr std::uintmax_t most_hidden_list_bytes = 1 << 20;
 [[nodiscard]] HiddenSubjects parse_hidden_subjects(std::string_view text, const std::string& name,
                                                    std::span<const std::string> subjects);
 
-/// The lists in a folder: every file of that name, case ignored. Usually one or none.
+/// The lists in a folder: everything of that name, case ignored. Usually one file or none; a folder of that name is no
+/// list, and who reads it says so.
 [[nodiscard]] std::vector<std::filesystem::path> hidden_subjects_files(const std::filesystem::path& folder);
 
 /// Whether the list holds the subject; case ignored.
@@ -49,10 +50,12 @@ enum class KnownSubjects { all, some };
 /// The text of a list of these subjects; empty if there are none.
 [[nodiscard]] std::string hidden_subjects_text(std::span<const std::string> hidden_subjects);
 
-/// For commands that take bare files: looks for a list in the file's folder and the four above it (a subject's folder,
-/// truth/ or faces/, the database, and the two above that), where the file lies and where links lead. Whose face it is,
-/// is told by the file's name (bs000_N_N_0, bs000), by the folders between list and file, or by a manifest.csv in one
-/// of them. @throws InputError naming the list if that subject is hidden.
+/// The gate for every file that a command opens by its name. Looks for lists in the file's folder and the four above it
+/// (a subject's folder, truth/ or faces/, the database, and the two above that), where the file lies and where links
+/// lead; in the database of a workspace that it lies in; and in the database that the file itself names
+/// (database/file_origin.h). Whose face it is, is told by the file's name (bs000_N_N_0, bs000), by the folders between
+/// list and file, by a manifest.csv in one of them, or by the file itself. So a list that grows hides at once what was
+/// made before. @throws InputError naming the list if that subject is hidden.
 void refuse_hidden_file(const std::filesystem::path& file);
 
 }  // namespace mimik::database

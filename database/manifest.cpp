@@ -113,7 +113,10 @@ Manifest parse_manifest(std::string_view text, const fs::path& file) {
             entry.landmarks_file = inside(rows, rows.field(*landmarks), folder, "landmarks");
         if (sex) entry.sex = parse_sex(rows, rows.field(*sex));
         try {
-            if (unit && !rows.field(*unit).empty()) entry.unit = io::parse_length_unit(rows.field(*unit));
+            if (unit && !rows.field(*unit).empty()) {
+                entry.unit = io::parse_length_unit(rows.field(*unit));
+                entry.unit_is_said = true;
+            }
         } catch (const InputError& e) {
             rows.fail(e.what());
         }

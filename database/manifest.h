@@ -13,8 +13,9 @@ namespace mimik::database {
 /// manifest.csv: one scan a line under the header
 ///   subject,expression,scan,landmarks,sex,unit        (any order; `subject`, `expression` and `scan` must be there)
 /// `scan` and `landmarks` are paths relative to the manifest, inside its folder; `expression` is what
-/// parse_expression() reads, sides the subject's own; `sex` is m, f or empty; `unit` is mm (also when empty), cm or m.
-/// Scans of one subject and expression are numbered in the order of the file. Blanks and '_' in subject names become
+/// parse_expression() reads, sides the subject's own; `sex` is m, f or empty; `unit` is mm, cm, m or inch; empty: not
+/// said. Scans of one subject and expression are numbered in the order of the file. Blanks and '_' in subject names
+/// become
 /// '-'.
 struct Manifest {
     std::vector<ScanEntry> scans;  ///< in the order of the file, paths absolute

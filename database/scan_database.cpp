@@ -15,6 +15,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "database/bnt.h"
+#include "database/database_names.h"
 #include "database/hidden_subjects.h"
 #include "database/manifest.h"
 #include "io/landmark_io.h"
@@ -311,6 +312,11 @@ void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& near
         fmt::format("texture coordinates lie {} and were turned", to_string(found->best, is_bnt(entry.scan_file))));
 }
 
+void set_unit(ScanDatabase& database, io::LengthUnit unit) {
+    for (auto& entry : database.scans)
+        if (!entry.unit_is_said) entry.unit = unit;
+}
+
 }  // namespace
 
 std::optional<io::Image> load_texture(const ScanEntry& entry) {
@@ -340,7 +346,7 @@ std::vector<const ScanEntry*> ScanDatabase::neutrals(const std::string& subject)
 
 bool ScanDatabase::hidden(const std::string& subject) const { return is_hidden(hidden_subjects, subject); }
 
-ScanDatabase open_database(const std::filesystem::path& root) {
+ScanDatabase open_database(const std::filesystem::path& root, io::LengthUnit unit) {
     std::error_code error;
     if (!fs::is_directory(root, error))
         throw InputError(
@@ -354,12 +360,14 @@ ScanDatabase open_database(const std::filesystem::path& root) {
         database.layout = DatabaseLayout::manifest;
         database.scans = std::move(manifest.scans);
         for (auto& entry : database.scans) entry.layout = DatabaseLayout::manifest;
+        set_unit(database, unit);
         add_images(database.scans);
         std::move(manifest.remarks.begin(), manifest.remarks.end(), std::back_inserter(database.remarks));
         if (database.scans.empty())
             throw InputError(fmt::format("{}: lists no scan; add one line per scan", file.string()));
         std::stable_sort(database.scans.begin(), database.scans.end(),
                          [](const auto& a, const auto& b) { return a.id < b.id; });
+        check_names(database);
         read_lists(database, root);
         return database;
     }
@@ -378,6 +386,8 @@ ScanDatabase open_database(const std::filesystem::path& root) {
     if (twin != database.scans.end())
         throw InputError(fmt::format("{} and {}: two scans of one name; rename one or move it out of the database",
                                      twin->scan_file.string(), std::next(twin)->scan_file.string()));
+    set_unit(database, unit);
+    check_names(database);
     read_lists(database, root);
     decide_code_sides(database);
     return database;

@@ -33,6 +33,7 @@ struct ScanEntry {
     std::string sex;                     ///< "m", "f" or empty
     std::map<int, char> intensities;     ///< AU -> 'A'..'E' (0 where not scored), the stronger side, from facscodes.lst
     std::vector<FacsScore> facs_scores;  ///< the same with sides
+    bool unit_is_said = false;           ///< by the manifest
 };
 
 /// Whether 12L in the file names is the subject's own left, by the mouth corner that moves. One vote per one-sided
@@ -63,8 +64,10 @@ struct ScanDatabase {
     [[nodiscard]] bool hidden(const std::string& subject) const;
 };
 
+/// @param unit  of the scans of which the manifest says none; files that say their own keep it.
 /// @throws InputError if the folder is missing or holds no scan at all, or a list beside the scans is unreadable.
-[[nodiscard]] ScanDatabase open_database(const std::filesystem::path& root);
+[[nodiscard]] ScanDatabase open_database(const std::filesystem::path& root,
+                                         io::LengthUnit unit = io::LengthUnit::millimetre);
 
 /// Part of a database. Empty lists mean "all"; within a list any entry will do, across lists all must hold.
 struct Selection {

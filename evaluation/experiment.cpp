@@ -1,6 +1,7 @@
 #include "evaluation/experiment.h"
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -32,21 +33,29 @@ public:
         for (const auto& planned : plan_.expressions) score(planned);
     }
     [[nodiscard]] std::vector<std::string> failures() const { return failures_.sorted(); }
+    [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
 
 private:
     /// A neutral that cannot be used is reported once, not once per expression.
     void find_usable() {
         std::vector<char> usable(plan_.subjects.size(), 0);
+        std::vector<std::string> said(plan_.subjects.size());
         base::parallel_for(usable.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t s = begin; s < end; ++s) try {
-                    reader_.check_neutral(plan_.subjects[s]);
+                    said[s] = reader_.check_neutral(plan_.subjects[s]);
                     usable[s] = 1;
                 } catch (const std::exception& e) {
                     failures_.add(fmt::format("{}: takes part in no case: {}", plan_.subjects[s], e.what()));
                 }
         });
-        for (std::size_t s = 0; s < usable.size(); ++s)
+        std::map<std::string, std::vector<std::string>> of_whom;
+        for (std::size_t s = 0; s < usable.size(); ++s) {
             if (usable[s]) usable_.insert(plan_.subjects[s]);
+            if (!said[s].empty()) of_whom[said[s]].push_back(plan_.subjects[s]);
+        }
+        for (const auto& [what, whom] : of_whom)
+            remarks_.push_back(fmt::format("{}{}: {}", whom.front(),
+                                           whom.size() > 1 ? fmt::format(" and {} more", whom.size() - 1) : "", what));
     }
 
     void score(const PlannedExpression& planned) {
@@ -80,6 +89,7 @@ private:
     const std::function<void(const std::string&)>& progress_;
     FailureList failures_;
     std::set<std::string> usable_;
+    std::vector<std::string> remarks_;
 };
 
 /// Mean of what is known.
@@ -153,6 +163,7 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
     }
     add_shares(report.rows);
     report.failures = run.failures();
+    report.remarks = run.remarks();
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
 }

@@ -34,7 +34,8 @@ struct ExperimentReport {
     std::optional<TruthOrigin> truth;
     MethodScores nothing;
     std::vector<MethodScores> rows;
-    std::vector<std::string> failures;  ///< what gave no answer, with the reason
+    std::vector<std::string> failures;      ///< what gave no answer, with the reason
+    std::vector<std::string> remarks = {};  ///< what is worth knowing, each once, with the number of subjects
     double seconds = 0.0;
 };
 

@@ -7,6 +7,7 @@
 
 #include "base/errors.h"
 #include "geometry/landmark_spline.h"
+#include "preprocessing/nearest_on_average.h"
 
 namespace mimik::evaluation {
 
@@ -35,10 +36,12 @@ std::optional<TruthOrigin> PerformanceReader::truth_origin() const {
     return origin;
 }
 
-void PerformanceReader::check_neutral(const std::string& subject) const {
+std::string PerformanceReader::check_neutral(const std::string& subject) const {
     const auto neutral = workspace_.face(workspace_.neutral(subject));
-    (void)geometry::landmark_spline(workspace_.average().landmarks, neutral.landmarks);
+    const geometry::LandmarkPairs pairs(workspace_.average().landmarks, neutral.landmarks);
+    (void)pairs.fit();
     if (truth_) (void)database::load_true_scan(*truth_, neutral.id);
+    return preprocessing::without_partner(neutral, workspace_.average());
 }
 
 modeling::Performance PerformanceReader::read(const ScanId& expressive) const {

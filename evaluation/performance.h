@@ -36,7 +36,9 @@ public:
     [[nodiscard]] bool has_truth() const { return truth_.has_value(); }
     [[nodiscard]] std::optional<TruthOrigin> truth_origin() const;
     /// @throws InputError if the subject cannot take part: face, truth or landmark spline to the average are amiss.
-    void check_neutral(const std::string& subject) const;
+    /// @return which landmarks have no partner on the average face, so that no spline between the two has them; empty:
+    /// all have one
+    std::string check_neutral(const std::string& subject) const;
     /// True displacements are from the neutral as it was, its micro-expression included, not from a face at rest. The
     /// two scans are brought together by the true pose where it is known, else as preprocessing aligned them.
     /// @throws InputError naming the file.

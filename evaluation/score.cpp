@@ -37,8 +37,9 @@ struct Sum {
     }
 };
 
+/// An error of rounding is no motion, and a share of it no number.
 std::optional<double> explained(double error, double nothing) {
-    return nothing > 0 ? std::optional(1 - error / nothing) : std::nullopt;
+    return nothing > least_motion_mm ? std::optional(1 - error / nothing) : std::nullopt;
 }
 
 /// The cases of one method on one expression.

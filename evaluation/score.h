@@ -14,9 +14,14 @@ namespace mimik::evaluation {
 /// What every other method has to beat, by its name.
 inline constexpr const char* baseline_method = "nothing";
 
+/// An expressive scan that lies nearer to its neutral is the same scan: there is nothing to explain. No scanner comes
+/// near it, and rounding stays far below.
+inline constexpr double least_motion_mm = 1e-4;
+
 /// One method on one expression; what is not known is empty.
 struct Score {
-    std::optional<double> explained;         ///< 1 - sum err(method) / sum err(doing nothing), active zone
+    std::optional<double> explained;         ///< 1 - sum err(method) / sum err(doing nothing), active zone;
+                                             ///< empty below least_motion_mm
     std::optional<double> explained_median;  ///< of 1 - err / err(nothing) over the cases
     std::optional<double> explained_whole;   ///< the same over the whole face
     std::optional<double> error_mm;          ///< mean over cases

@@ -45,10 +45,21 @@ public:
 
     std::vector<CaseRow> run() {
         for (std::size_t m = 0; m < plan_.methods.size(); ++m) score_method(m);
+        say_if_nothing_moves();
         return std::move(rows_);
     }
 
 private:
+    void say_if_nothing_moves() {
+        for (const auto& row : rows_)
+            if (row.key.method == baseline_method && row.estimator == "surface_distance" && row.region == "zone" &&
+                row.value && *row.value <= least_motion_mm)
+                failures_.add(fmt::format(
+                    "{}: its scan of {} is equal to its neutral scan, so what is explained of it is unknown; scan the "
+                    "expression again, or take this one out",
+                    row.key.target, row.key.expression));
+    }
+
     void score_method(std::size_t m) {
         const auto& method = *plan_.methods[m];
         if (method.needs() == SourceKind::one_source) {

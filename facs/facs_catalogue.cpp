@@ -463,6 +463,17 @@ std::vector<SidedUnit> FacsCatalogue::units(const Expression& expression) const 
     return units;
 }
 
+bool FacsCatalogue::knows(const Expression& expression) const {
+    try {
+        const auto known = units(expression);
+        return !known.empty() && std::none_of(known.begin(), known.end(), [](const SidedUnit& part) {
+            return part.unit->central && part.side != Side::both;
+        });
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
 std::string arkit_shape(const FacsCatalogue& catalogue, const Expression& expression) {
     // A blendshape at 1 is the full motion: a scan of low intensity is none.
     if (expression.units().size() != 1 || expression.units().front().low_intensity) return {};

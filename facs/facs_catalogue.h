@@ -87,6 +87,8 @@ public:
     [[nodiscard]] Expression expression(const std::string& text) const;
     /// The same; empty if it is not in the catalogue.
     [[nodiscard]] std::optional<Expression> find_expression(const std::string& text) const;
+    /// Whether units() names some, and no unit that moves both sides at once is asked for on one.
+    [[nodiscard]] bool knows(const Expression& expression) const;
     /// What the catalogue knows of an expression's units; of an emotion, of its prototype's. A database's own word that
     /// the catalogue lacks has none: nobody knows where it moves the face, so it is looked for everywhere.
     /// @throws InputError naming a unit or an emotion that is not in the catalogue.

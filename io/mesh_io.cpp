@@ -1,8 +1,11 @@
 #include "io/mesh_io.h"
 
 #include <cmath>
+#include <locale>
 #include <new>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -123,11 +126,22 @@ LengthUnit parse_length_unit(const std::string& text) {
     if (text == "mm") return LengthUnit::millimetre;
     if (text == "cm") return LengthUnit::centimetre;
     if (text == "m") return LengthUnit::metre;
-    throw InputError(fmt::format("unit {} is not known; use mm, cm or m", base::in_quotes(text)));
+    if (text == "inch") return LengthUnit::inch;
+    throw InputError(fmt::format("unit {} is not known; use mm, cm, m or inch", base::in_quotes(text)));
 }
 
 const char* to_string(LengthUnit unit) {
-    return unit == LengthUnit::metre ? "m" : unit == LengthUnit::centimetre ? "cm" : "mm";
+    switch (unit) {
+        case LengthUnit::millimetre:
+            return "mm";
+        case LengthUnit::centimetre:
+            return "cm";
+        case LengthUnit::inch:
+            return "inch";
+        case LengthUnit::metre:
+            break;
+    }
+    return "m";
 }
 
 double millimetres_per(LengthUnit unit) {
@@ -136,6 +150,8 @@ double millimetres_per(LengthUnit unit) {
             return 1.0;
         case LengthUnit::centimetre:
             return 10.0;
+        case LengthUnit::inch:
+            return 25.4;
         case LengthUnit::metre:
             break;
     }
@@ -218,6 +234,14 @@ MeshWriteOptions checked_options(const Mesh& mesh, const MeshWriteOptions& optio
 }
 
 }  // namespace
+
+std::string encode_ply(const Mesh& mesh, const std::string& name, const MeshWriteOptions& options) {
+    check_parts_fit(mesh, name);
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    formats::encode_ply(out, mesh, checked_options(mesh, options, name));
+    return std::move(out).str();
+}
 
 void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const MeshWriteOptions& options) {
     const auto format = mesh_format(file);

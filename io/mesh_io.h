@@ -13,9 +13,9 @@
 namespace mimik::io {
 
 /// Units of a file that does not state them; Mimik works in millimetres and converts here, at the reader.
-enum class LengthUnit { millimetre, centimetre, metre };
-[[nodiscard]] LengthUnit parse_length_unit(const std::string& text);  ///< "mm", "cm", "m"; throws InputError
-[[nodiscard]] const char* to_string(LengthUnit unit);                 ///< "mm", "cm", "m"
+enum class LengthUnit { millimetre, centimetre, metre, inch };
+[[nodiscard]] LengthUnit parse_length_unit(const std::string& text);  ///< "mm", "cm", "m", "inch"; throws InputError
+[[nodiscard]] const char* to_string(LengthUnit unit);                 ///< "mm", "cm", "m", "inch"
 [[nodiscard]] double millimetres_per(LengthUnit unit);
 
 enum class MeshFormat { ply, obj, stl, pcd, vtp };
@@ -80,6 +80,10 @@ struct MeshWriteOptions {
 /// them; docs/formats.md says what each leaves out. OBJ with a texture also writes the .mtl beside it.
 /// @throws InputError if the parts of the mesh do not fit together, or the file cannot be written.
 void write_mesh(const std::filesystem::path& file, const geometry::Mesh& mesh, const MeshWriteOptions& options = {});
+
+/// The bytes of the PLY that write_mesh writes. @throws InputError as write_mesh; `name` stands for the file.
+[[nodiscard]] std::string encode_ply(const geometry::Mesh& mesh, const std::string& name,
+                                     const MeshWriteOptions& options = {});
 
 /// The texture's name if it is a bare file name (a leading "./" is dropped). @throws InputError naming `file` and the
 /// value where it has a folder in it.

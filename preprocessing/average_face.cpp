@@ -263,7 +263,11 @@ DepthSums sum_depths(std::size_t count, const std::function<Face(std::size_t)>& 
         base::parallel_for_each(size, [&](std::size_t k) {
             const Face face = load(begin + k);
             names[k] = face.id.name();
-            depths[k] = depths_of(face, consensus, grid);
+            try {
+                depths[k] = depths_of(face, consensus, grid);
+            } catch (const std::exception& e) {
+                throw InputError(fmt::format("{}: cannot be carried to the average face: {}", names[k], e.what()));
+            }
         });
         for (std::size_t k = 0; k < size; ++k) {
             scans.push_back(names[k]);
@@ -401,6 +405,15 @@ AverageFace build_average_face(std::size_t count, const std::function<Face(std::
     return average;
 }
 
+namespace {
+
+/// Of the document without its digest, and of the mesh beside it.
+std::string digest_of_average(const nlohmann::json& document, const base::FileDigest& mesh) {
+    return fmt::format("{} {}", base::digest_of(io::json_text(document)).text(), mesh.text());
+}
+
+}  // namespace
+
 void write_average_face(const std::filesystem::path& stem, const AverageFace& average, const std::string& fingerprint) {
     auto mesh_file = stem, json_file = stem;
     mesh_file += ".ply";
@@ -408,8 +421,8 @@ void write_average_face(const std::filesystem::path& stem, const AverageFace& av
     // The .json says that both are whole: a run that ends in between must not leave that of another surface.
     std::error_code ignored;
     std::filesystem::remove(json_file, ignored);
-    write_grid(mesh_file, average.grid);
-    const nlohmann::json document = {
+    const auto mesh = write_grid(mesh_file, average.grid);
+    nlohmann::json document = {
         {"schema", 1},
         {"kind", "mimik average face"},
         {"rows", average.grid.rows},
@@ -420,7 +433,23 @@ void write_average_face(const std::filesystem::path& stem, const AverageFace& av
         {"scans", average.scans},
         {"consensus_rms_mm", average.consensus_rms_mm},
         {"fingerprint", fingerprint}};
+    document["digest"] = digest_of_average(document, mesh);
     base::write_atomically(json_file, io::json_text(document));
+}
+
+bool average_face_is_whole(const std::filesystem::path& stem) {
+    auto mesh_file = stem, json_file = stem;
+    mesh_file += ".ply";
+    json_file += ".json";
+    try {
+        const auto text = base::read_text(json_file, io::most_json_bytes);
+        auto document = io::parse_json(text, json_file.string());
+        const auto digest = io::read_field<std::string>(document, "digest");
+        document.erase("digest");
+        return digest == digest_of_average(document, base::digest_of_file(mesh_file));
+    } catch (const InputError&) {
+        return false;
+    }
 }
 
 AverageFace decode_average_face(std::string_view text, const std::string& name, std::string* fingerprint) {

@@ -59,6 +59,8 @@ struct AverageFace {
                                              const AverageFaceOptions& options = {});
 
 void write_average_face(const std::filesystem::path& stem, const AverageFace& average, const std::string& fingerprint);
+/// Whether both files are as they were written, to the last bit.
+[[nodiscard]] bool average_face_is_whole(const std::filesystem::path& stem);
 [[nodiscard]] AverageFace read_average_face(const std::filesystem::path& stem, std::string* fingerprint = nullptr);
 /// What stands in the .json; of the grid, its rows and cols alone. `name` stands for the file. @throws InputError.
 [[nodiscard]] AverageFace decode_average_face(std::string_view text, const std::string& name,

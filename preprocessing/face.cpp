@@ -7,6 +7,7 @@
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "io/image.h"
 #include "io/json_values.h"
 #include "io/mesh_io.h"
 #include "preprocessing/workspace_json.h"
@@ -30,7 +31,7 @@ std::filesystem::path with_suffix(const std::filesystem::path& stem, const char*
 
 }  // namespace
 
-void write_grid(const std::filesystem::path& file, const geometry::QuadGrid& grid) {
+base::FileDigest write_grid(const std::filesystem::path& file, const geometry::QuadGrid& grid) {
     geometry::Mesh mesh;
     mesh.vertices_mm = grid.vertices_mm;
     mesh.faces = geometry::quads(grid);
@@ -48,7 +49,9 @@ void write_grid(const std::filesystem::path& file, const geometry::QuadGrid& gri
         origin.values.push_back(static_cast<double>(grid.origin[v]));
     }
     mesh.attributes.push_back(std::move(origin));
-    io::write_mesh(file, mesh);
+    const auto bytes = io::encode_ply(mesh, file.string());
+    base::write_atomically(file, bytes);
+    return base::digest_of(bytes);
 }
 
 geometry::QuadGrid to_grid(geometry::Mesh mesh, int rows, int cols, const std::string& name) {
@@ -93,22 +96,32 @@ geometry::QuadGrid grid_size_from_json(const json& document) {
     return grid;
 }
 
+namespace {
+
 /// A face's own picture is written beside it; the .json names it without a folder, so that a workspace can be moved.
-std::string write_picture(const std::filesystem::path& stem, const Face& face) {
+std::string write_picture(const std::filesystem::path& stem, const Face& face, FaceDigests& digests) {
     const auto own = with_suffix(stem, ".png");
-    if (face.picture)
-        io::write_png(own, *face.picture);
-    else if (face.texture_file != own) {
+    if (face.picture) {
+        const auto bytes = io::encode_png(*face.picture);
+        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        base::write_atomically(own, text);
+        digests.png = base::digest_of(text);
+    } else if (face.texture_file != own) {
         std::error_code ignored;
         std::filesystem::remove(own, ignored);  // of another scan of this name
         return face.texture_file.string();
+    } else {
+        digests.png = base::digest_of_file(own);  // written when the face was made
     }
     return own.filename().string();
 }
 
-void write_face(const std::filesystem::path& stem, const Face& face) {
-    const auto texture_file = write_picture(stem, face);
-    write_grid(with_suffix(stem, ".ply"), face.grid);
+}  // namespace
+
+FaceDigests write_face(const std::filesystem::path& stem, const Face& face) {
+    FaceDigests digests;
+    const auto texture_file = write_picture(stem, face, digests);
+    digests.ply = write_grid(with_suffix(stem, ".ply"), face.grid);
     const json document = {
         {"schema", 1},
         {"kind", "mimik face"},
@@ -128,7 +141,10 @@ void write_face(const std::filesystem::path& stem, const Face& face) {
         {"alignment_rms_mm", face.alignment_rms_mm},
         {"remarks", face.remarks},
     };
-    base::write_atomically(with_suffix(stem, ".json"), io::json_text(document));
+    const auto text = io::json_text(document);
+    base::write_atomically(with_suffix(stem, ".json"), text);
+    digests.json = base::digest_of(text);
+    return digests;
 }
 
 Face decode_face(std::string_view text, const std::string& name) {

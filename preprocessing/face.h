@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/file_digest.h"
 #include "database/scan_id.h"
 #include "geometry/landmarks.h"
 #include "geometry/quad_grid.h"
@@ -37,14 +39,19 @@ struct Face {
 };
 
 /// A grid as PLY: double precision, property `origin` (0 outside, 1 measured, 2 bridged), quads of the inside.
-void write_grid(const std::filesystem::path& file, const geometry::QuadGrid& grid);
+/// @return of the bytes that were written, as all digests of written files.
+base::FileDigest write_grid(const std::filesystem::path& file, const geometry::QuadGrid& grid);
 [[nodiscard]] geometry::QuadGrid read_grid(const std::filesystem::path& file, int rows, int cols);
 /// The same from a mesh that was read; `name` stands for its file. @throws InputError naming what does not fit.
 [[nodiscard]] geometry::QuadGrid to_grid(geometry::Mesh mesh, int rows, int cols, const std::string& name);
 
+struct FaceDigests {
+    base::FileDigest ply, json;
+    std::optional<base::FileDigest> png = {};  ///< of a face with a picture of its own
+};
 /// `<stem>.ply` (grid, double precision, opens in any viewer), `<stem>.json` (everything else, schema 1) and, of a face
 /// with a picture of its own, `<stem>.png`.
-void write_face(const std::filesystem::path& stem, const Face& face);
+FaceDigests write_face(const std::filesystem::path& stem, const Face& face);
 /// @throws InputError naming the file and what is wrong.
 [[nodiscard]] Face read_face(const std::filesystem::path& stem);
 /// What stands in the .json; of the grid, its rows and cols alone. `name` stands for the file. @throws InputError.

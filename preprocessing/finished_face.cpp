@@ -19,27 +19,27 @@ fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix;
 
 constexpr std::string_view looked_for_mark = "looked for ";
 
-/// What `.done` says of a face: what it was made from, how long its two files are, so that a file that was deleted or
-/// cut short is noticed, and the state of the files that the scan's own file names: an image may come or change later.
-std::string done_text(const fs::path& stem, const std::string& fingerprint, const std::vector<fs::path>& looked_for) {
-    const auto size = [&](const char* suffix) {
-        std::error_code error;
-        const auto bytes = fs::file_size(with_suffix(stem, suffix), error);
-        return error ? std::string("absent") : fmt::format("{}", bytes);
-    };
-    auto text = fmt::format("{}\nfiles {} {}\n", fingerprint, size(".ply"), size(".json"));
-    for (const auto& file : looked_for)
-        text += fmt::format("{}{}\n{}\n", looked_for_mark, file.string(), file_stamp(file));
+/// What `.done` says of a face: what it was made from, length and hash of its two files as they were written (a file
+/// that was deleted, cut short or damaged since is noticed), and the state of the files that the scan's own file names.
+std::string done_text(const std::string& fingerprint, const FaceDigests& digests,
+                      const std::vector<LookedFor>& looked_for) {
+    auto text = fmt::format("{}\nfiles {} {}{}\n", fingerprint, digests.ply.text(), digests.json.text(),
+                            digests.png ? " " + digests.png->text() : "");
+    for (const auto& [file, stamp] : looked_for)
+        text += fmt::format("{}{}\n{}\n", looked_for_mark, file.string(), stamp);
     return text;
 }
 
 /// The files that the `.done` of a face names so. A name with a line break in it is not found again: that face is made
 /// anew each time.
-std::vector<fs::path> files_named_in(std::string_view done) {
-    std::vector<fs::path> files;
+std::vector<LookedFor> files_named_in(std::string_view done) {
+    std::vector<LookedFor> files;
+    bool stamp_follows = false;
     while (!done.empty()) {
         const auto line = done.substr(0, done.find('\n'));
-        if (line.starts_with(looked_for_mark)) files.emplace_back(line.substr(looked_for_mark.size()));
+        if (stamp_follows) files.back().stamp = line;
+        stamp_follows = !stamp_follows && line.starts_with(looked_for_mark);
+        if (stamp_follows) files.push_back({fs::path(line.substr(looked_for_mark.size())), {}});
         done.remove_prefix(std::min(line.size() + 1, done.size()));
     }
     return files;
@@ -47,14 +47,15 @@ std::vector<fs::path> files_named_in(std::string_view done) {
 
 std::string read_done(const fs::path& stem) { return base::read_text(with_suffix(stem, ".done"), 1 << 20); }
 
-}  // namespace
-
-std::string file_stamp(const fs::path& file) {
-    std::error_code error;
-    const auto size = fs::file_size(file, error);
-    const auto time = fs::last_write_time(file, error);
-    return error ? "absent" : fmt::format("{} {}", size, time.time_since_epoch().count());
+/// Reads the files to their ends. A picture that came from elsewhere counts, too: then it is not what was written.
+FaceDigests digests_of(const fs::path& stem) {
+    FaceDigests digests{base::digest_of_file(with_suffix(stem, ".ply")),
+                        base::digest_of_file(with_suffix(stem, ".json"))};
+    if (const auto own = with_suffix(stem, ".png"); base::is_there(own)) digests.png = base::digest_of_file(own);
+    return digests;
 }
+
+}  // namespace
 
 bool finished(const fs::path& stem, const std::string& fingerprint) {
     const auto file = with_suffix(stem, ".done");
@@ -62,18 +63,21 @@ bool finished(const fs::path& stem, const std::string& fingerprint) {
     if (!fs::is_regular_file(file, error)) return false;
     try {
         const auto done = read_done(stem);
-        return done == done_text(stem, fingerprint, files_named_in(done));
+        if (!done.starts_with(fingerprint + "\n")) return false;  // no need to read the rest
+        auto looked_for = files_named_in(done);
+        for (auto& one : looked_for) one.stamp = file_stamp(one.file);
+        return done == done_text(fingerprint, digests_of(stem), looked_for);
     } catch (const InputError&) {
-        return false;  // unreadable: made again
+        return false;  // unreadable or gone: made again
     }
 }
 
 void write_finished(const fs::path& stem, const Face& face, const std::string& fingerprint,
-                    const std::vector<fs::path>& looked_for) {
+                    const std::vector<LookedFor>& looked_for) {
     std::error_code ignored;
     fs::remove(with_suffix(stem, ".done"), ignored);
-    write_face(stem, face);
-    base::write_atomically(with_suffix(stem, ".done"), done_text(stem, fingerprint, looked_for));
+    const auto digests = write_face(stem, face);
+    base::write_atomically(with_suffix(stem, ".done"), done_text(fingerprint, digests, looked_for));
 }
 
 std::optional<Face> read_finished(const fs::path& stem, const std::string& fingerprint) {
@@ -85,6 +89,11 @@ std::optional<Face> read_finished(const fs::path& stem, const std::string& finge
     }
 }
 
-std::vector<fs::path> files_looked_for(const fs::path& stem) { return files_named_in(read_done(stem)); }
+std::vector<LookedFor> files_looked_for(const fs::path& stem) { return files_named_in(read_done(stem)); }
+
+void remove_face(const fs::path& stem) {
+    std::error_code ignored;
+    for (const char* suffix : {".done", ".json", ".ply", ".png"}) fs::remove(with_suffix(stem, suffix), ignored);
+}
 
 }  // namespace mimik::preprocessing

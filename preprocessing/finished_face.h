@@ -6,26 +6,28 @@
 #include <vector>
 
 #include "preprocessing/face.h"
+#include "preprocessing/scan_reading.h"
 
 // What tells a face that an earlier run finished from one that has to be made: `<stem>.done` beside its two files.
 
 namespace mimik::preprocessing {
 
-/// A file that did not change has the same size and time: cheap to ask for thousands of scans.
-[[nodiscard]] std::string file_stamp(const std::filesystem::path& file);
-
-/// Whether `<stem>.done` names this fingerprint, and all files that it speaks of are as they were then.
+/// Whether `<stem>.done` names this fingerprint, the face's two files are to the last bit as they were written, and the
+/// other files that it speaks of are as they were when the scan was read.
 [[nodiscard]] bool finished(const std::filesystem::path& stem, const std::string& fingerprint);
 
 /// The face of an earlier run, if it is whole and was made from the same.
 [[nodiscard]] std::optional<Face> read_finished(const std::filesystem::path& stem, const std::string& fingerprint);
 
 /// The mark goes first and comes last: a run that ends in between leaves a face that counts as missing.
-/// @param looked_for  files that the scan's own file names; there or not. @throws InputError as write_face.
+/// @throws InputError as write_face.
 void write_finished(const std::filesystem::path& stem, const Face& face, const std::string& fingerprint,
-                    const std::vector<std::filesystem::path>& looked_for);
+                    const std::vector<LookedFor>& looked_for);
 
 /// `looked_for` as it was written. @throws InputError if there is no readable `.done`.
-[[nodiscard]] std::vector<std::filesystem::path> files_looked_for(const std::filesystem::path& stem);
+[[nodiscard]] std::vector<LookedFor> files_looked_for(const std::filesystem::path& stem);
+
+/// Deletes a face and its mark.
+void remove_face(const std::filesystem::path& stem);
 
 }  // namespace mimik::preprocessing

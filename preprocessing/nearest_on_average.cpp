@@ -2,12 +2,27 @@
 
 #include <limits>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "geometry/landmark_spline.h"
 #include "geometry/point_index.h"
 
 namespace mimik::preprocessing {
 
 using geometry::Point;
+
+std::string without_partner(const Face& face, const AverageFace& average) {
+    const geometry::LandmarkPairs pairs(face.landmarks, average.landmarks);
+    std::vector<std::string> parts;
+    if (const auto names = pairs.only_in_to(); !names.empty())
+        parts.push_back(fmt::format("the scan lacks {} of the average face", fmt::join(names, ", ")));
+    if (const auto names = pairs.only_in_from(); !names.empty())
+        parts.push_back(fmt::format("the average face lacks {} of the scan", fmt::join(names, ", ")));
+    if (parts.empty()) return {};
+    return fmt::format("landmarks without a partner: {}; what is learned between the two goes without them",
+                       fmt::join(parts, "; "));
+}
 
 std::vector<NearestOnAverage> nearest_on_average(const Face& face, const AverageFace& average) {
     std::vector<Point> known;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "preprocessing/average_face.h"
@@ -12,6 +13,10 @@ struct NearestOnAverage {
     std::size_t vertex = 0;
     double distance_mm = 0.0;  ///< infinite for a vertex that is outside its face
 };
+
+/// What is to be said of landmarks that only one of the two has: every spline between them goes without. Empty: all
+/// have a partner.
+[[nodiscard]] std::string without_partner(const Face& face, const AverageFace& average);
 
 /// For each grid vertex of `face` the nearest inside vertex of the average face, after the landmark spline has carried
 /// the face there: how what is known on the average face (labels, zones) comes to a face.

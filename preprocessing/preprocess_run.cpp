@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -14,15 +15,20 @@
 #include "base/content_hash.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/folder_lock.h"
 #include "base/output_folder.h"
 #include "base/parallel.h"
-#include "database/bnt.h"
+#include "base/text.h"
+#include "database/database_names.h"
 #include "database/hidden_subjects.h"
 #include "geometry/landmark_spline.h"
 #include "io/json_values.h"
+#include "preprocessing/consensus_outliers.h"
 #include "preprocessing/finished_face.h"
+#include "preprocessing/nearest_on_average.h"
 #include "preprocessing/neutral_alignment.h"
 #include "preprocessing/normalisation.h"
+#include "preprocessing/scan_reading.h"
 #include "preprocessing/stable_region.h"
 #include "preprocessing/workspace.h"
 #include "preprocessing/workspace_layout.h"
@@ -34,11 +40,6 @@ using database::ScanId;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string upper(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
-    return text;
-}
 
 /// Part of every fingerprint: raise it when the steps give other numbers for the same scan and options.
 constexpr int steps_version = 6;
@@ -61,39 +62,14 @@ std::string field_values(const Options& options) {
 }
 
 std::string describe(const PreprocessOptions& options) {
-    return fmt::format("steps {} clean{} grid{} icp{}", steps_version, field_values(options.steps.cleaning),
-                       field_values(options.steps.gridding), field_values(options.alignment));
+    auto text = fmt::format("steps {} clean{} grid{} icp{}", steps_version, field_values(options.steps.cleaning),
+                            field_values(options.steps.gridding), field_values(options.alignment));
+    for (const auto& kind : std::set<std::string>(options.accept.begin(), options.accept.end()))
+        text += " accept " + kind;
+    return text;
 }
 
 std::string describe(const AverageFaceOptions& options) { return "average" + field_values(options); }
-
-/// What the shape of a face and its landmarks come from: all that the average face and other scans take of it.
-std::string shape_stamp(const ScanEntry& entry) {
-    return fmt::format("{} {} unit {}", file_stamp(entry.scan_file), file_stamp(entry.landmarks_file),
-                       static_cast<int>(entry.unit));
-}
-
-/// Everything that a face takes from an entry. Image and image landmarks together decide how the texture lies; files
-/// that only the scan file names stand in `.done`.
-std::string entry_stamp(const ScanEntry& entry) {
-    // Of meshes alone, whose pictures may be painted anew: raise it when they come out otherwise.
-    const char* const pictures = database::is_bnt(entry.scan_file) ? "" : " pictures 1";
-    return fmt::format("{} sex '{}' texture '{}' {} {}{}", shape_stamp(entry), entry.sex, entry.texture_file.string(),
-                       file_stamp(entry.texture_file), file_stamp(entry.landmarks2d_file), pictures);
-}
-
-/// Nothing can be done with a scan without landmarks, or with some on the other side: found out before it is gridded.
-database::LoadedScan load_marked(const ScanEntry& entry) {
-    auto loaded = database::load(entry);
-    if (const auto& swapped = loaded.checks.sides.swapped_pairs; !swapped.empty())
-        throw InputError(fmt::format("{}: left and right of {} are exchanged against the rest; exchange the labels",
-                                     entry.landmarks_file.string(), fmt::join(swapped, ", ")));
-    if (!loaded.landmarks.all().empty()) return loaded;
-    if (!entry.landmarks_file.empty())
-        throw InputError(fmt::format("{}: there is no landmark in it; mark the face", entry.landmarks_file.string()));
-    throw InputError(fmt::format("no landmark file beside {}; put {} there", entry.scan_file.string(),
-                                 entry.scan_file.stem().string() + ".lm3"));
-}
 
 }  // namespace
 
@@ -101,16 +77,18 @@ void PreprocessOptions::check() const {
     steps.check();
     average.check();
     alignment.check();
+    const auto& kinds = kinds_that_refuse();
+    for (const auto& kind : accept)
+        if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+            throw InputError(fmt::format("accept is {}; give {}", base::in_quotes(kind), fmt::join(kinds, ", ")));
 }
 
 std::vector<const ScanEntry*> selected_scans(const database::ScanDatabase& database, const PreprocessOptions& options) {
     static const std::set<std::string> posed = {"YR", "PR", "CR", "O", "IGN"};
     std::map<std::string, std::string> subjects, codes, unseen_subjects, unseen_codes;  // as compared -> as typed
-    for (const auto& subject : options.subjects) subjects.emplace(upper(subject), subject);
-    for (const auto& code : options.codes) {
-        const auto id = facs::parse_expression(code);
-        codes.emplace(upper(id ? id->code() : code), code);
-    }
+    for (const auto& subject : options.subjects) subjects.emplace(base::lower_case(subject), subject);
+    for (const auto& expression : options.expressions)
+        codes.emplace(base::lower_case(expression.code()), expression.code());
     unseen_subjects = subjects;
     unseen_codes = codes;
     const auto typed = [](const std::map<std::string, std::string>& words) {
@@ -121,11 +99,12 @@ std::vector<const ScanEntry*> selected_scans(const database::ScanDatabase& datab
     };
     std::vector<const ScanEntry*> scans;
     for (const auto& entry : database.scans) {
-        const auto subject = upper(entry.id.subject), code = upper(entry.id.code);
+        const auto subject = base::lower_case(entry.id.subject), code = base::lower_case(entry.id.code);
         unseen_codes.erase(code);
         if (!subjects.empty() && !subjects.contains(subject)) continue;
         unseen_subjects.erase(subject);
-        if (!entry.id.neutral() && (codes.empty() ? posed.contains(upper(entry.id.group)) : !codes.contains(code)))
+        if (!entry.id.neutral() &&
+            (codes.empty() ? posed.contains(entry.id.expression().group()) : !codes.contains(code)))
             continue;
         scans.push_back(&entry);
     }
@@ -141,6 +120,22 @@ std::vector<const ScanEntry*> selected_scans(const database::ScanDatabase& datab
     return scans;
 }
 
+std::vector<const ScanEntry*> scans_to_preprocess(const database::ScanDatabase& database, const fs::path& root,
+                                                  const PreprocessOptions& options) {
+    const auto selected = selected_scans(database, options);
+    const auto earlier = earlier_list(root);
+    if (!earlier) return selected;
+    std::vector<const ScanEntry*> scans;
+    auto next = selected.begin();  // both in the order of the database
+    for (const auto& entry : database.scans) {
+        const bool chosen = next != selected.end() && *next == &entry;
+        if (chosen) ++next;
+        if (chosen || std::binary_search(earlier->scans.begin(), earlier->scans.end(), entry.id))
+            scans.push_back(&entry);
+    }
+    return scans;
+}
+
 namespace {
 
 /// One run of preprocess_database: what its two passes share.
@@ -150,7 +145,9 @@ public:
                 const PreprocessOptions& options, const std::function<void(const std::string&)>& progress)
         : database_(database), root_(std::move(root)), catalogue_(catalogue), options_(options), progress_(progress) {
         std::map<std::string, Subject> by_name;
-        for (const auto* entry : selected_scans(database, options)) by_name[entry->id.subject].scans.push_back(entry);
+        const auto scans = scans_to_preprocess(database, root_, options);
+        from_earlier_runs_ = scans.size() - selected_scans(database, options).size();
+        for (const auto* entry : scans) by_name[entry->id.subject].scans.push_back(entry);
         for (auto& [name, subject] : by_name) subjects_.push_back(std::move(subject));
     }
 
@@ -171,8 +168,8 @@ public:
             if (!subject.neutral) return;  // left out
             for (const auto* entry : subject.scans) {
                 const bool there = entry == subject.neutral
-                                       ? average_there && tied(*entry)
-                                       : finished(face_stem(root_, entry->id), fingerprint(*entry));
+                                       ? average_there && tied(subject)
+                                       : finished(face_stem(root_, entry->id), fingerprint(stamps_of(*entry)));
                 ++(there ? subject.up_to_date : subject.preprocessed);
             }
         });
@@ -189,6 +186,7 @@ private:
     struct Subject {
         std::vector<const ScanEntry*> scans;
         const ScanEntry* neutral = nullptr;  ///< the first usable one
+        ScanStamps neutral_stamps;           ///< as its scan was when its face was made
         geometry::Landmarks neutral_landmarks;
         bool fresh = false;                   ///< its neutral was gridded in this run
         std::set<const ScanEntry*> reported;  ///< neutrals that failed in the first pass
@@ -204,7 +202,9 @@ private:
     }
     void remark(Subject& subject, const Face& face) const {
         for (const auto& text : face.remarks) subject.remarks.push_back({face.id.name(), text});
-        if (const auto text = without_partner(face); !text.empty()) subject.remarks.push_back({face.id.name(), text});
+        // Not kept with the face: another average face may have other landmarks.
+        if (const auto text = without_partner(face, average_); !text.empty())
+            subject.remarks.push_back({face.id.name(), text});
         const geometry::LandmarkPairs pairs(face.snapped_landmarks, face.snapped_landmarks);
         for (const auto& pair : pairs.merged())
             if (pair == "'lower_lip_inner' lies on 'upper_lip_inner'" ||
@@ -213,18 +213,6 @@ private:
             else
                 subject.remarks.push_back({face.id.name(), "on one grid vertex: " + pair});
     }
-    /// Not kept with the face: another average face may have other landmarks.
-    [[nodiscard]] std::string without_partner(const Face& face) const {
-        const geometry::LandmarkPairs pairs(face.landmarks, average_.landmarks);
-        std::vector<std::string> parts;
-        if (const auto names = pairs.only_in_to(); !names.empty())
-            parts.push_back(fmt::format("the scan lacks {} of the average face", fmt::join(names, ", ")));
-        if (const auto names = pairs.only_in_from(); !names.empty())
-            parts.push_back(fmt::format("the average face lacks {} of the scan", fmt::join(names, ", ")));
-        if (parts.empty()) return {};
-        return fmt::format("landmarks without a partner: {}; what is learned between the two goes without them",
-                           fmt::join(parts, "; "));
-    }
     void done(const ScanEntry& entry) const {
         if (progress_) progress_(entry.id.name());
     }
@@ -232,8 +220,8 @@ private:
     void begin_writing() {
         std::call_once(writing_, [&] {
             std::error_code ignored;
-            fs::remove(root_ / "workspace.json", ignored);
-            keep_hidden_list();  // before the first face that it is about
+            fs::rename(list_file(root_), list_file_before(root_), ignored);  // what a run that is stopped would hide
+            keep_hidden_list();                                              // before the first face that it is about
         });
     }
     /// For commands that take bare files. A list that somebody else put there only grows.
@@ -256,13 +244,13 @@ private:
             throw InputError(fmt::format("{}: hides subjects whom the database shows and cannot be removed ({})",
                                          file.string(), error.message()));
     }
-    [[nodiscard]] std::string neutral_fingerprint(const ScanEntry& entry) const {
-        return describe(options_) + " neutral " + entry_stamp(entry);
+    [[nodiscard]] std::string neutral_fingerprint(const ScanStamps& stamps) const {
+        return describe(options_) + " neutral " + stamps.whole;
     }
 
     /// Of scans other than the first neutrals.
-    [[nodiscard]] std::string fingerprint(const ScanEntry& entry) const {
-        return fmt::format("{} scan {} average {} stable region {}", describe(options_), entry_stamp(entry),
+    [[nodiscard]] std::string fingerprint(const ScanStamps& stamps) const {
+        return fmt::format("{} scan {} average {} stable region {}", describe(options_), stamps.whole,
                            average_fingerprint_, catalogue_.content_hash());
     }
 
@@ -270,38 +258,46 @@ private:
     void expect_neutral(Subject& subject) const {
         for (const auto* entry : subject.scans) {
             if (!entry->id.neutral()) continue;
-            if (!subject.neutral) subject.neutral = entry;
-            if (!finished(face_stem(root_, entry->id), neutral_fingerprint(*entry))) continue;
+            const auto stamps = stamps_of(*entry);
+            const bool there = finished(face_stem(root_, entry->id), neutral_fingerprint(stamps));
+            if (subject.neutral && !there) continue;
             subject.neutral = entry;
-            return;
+            subject.neutral_stamps = stamps;
+            if (there) return;
         }
     }
 
     /// First pass: one neutral per subject, gridded and written. One that fails gives its place to the next.
     void grid_neutral(Subject& subject) {
         for (const auto* entry : subject.scans) {
-            if (!entry->id.neutral()) continue;
+            if (!entry->id.neutral() || subject.reported.contains(entry)) continue;
             const auto stem = face_stem(root_, entry->id);
             try {
-                auto face = read_finished(stem, neutral_fingerprint(*entry));
+                auto stamps = stamps_of(*entry);
+                auto face = read_finished(stem, neutral_fingerprint(stamps));
                 if (!face) {
-                    const auto loaded = load_marked(*entry);
-                    face = preprocess_scan(loaded, options_.steps);
+                    const auto read = read_scan(*entry, options_.accept);
+                    face = preprocess_scan(read.loaded, options_.steps);
+                    stamps = read.stamps;
                     // Every later step stands on these four landmarks: now is the time to find them missing or flat.
                     (void)affine_normalisation(face->snapped_landmarks, face->snapped_landmarks);
                     begin_writing();
-                    write_finished(stem, *face, neutral_fingerprint(*entry), loaded.files_looked_for);
+                    write_finished(stem, *face, neutral_fingerprint(stamps), read.looked_for);
                     subject.fresh = true;
                 }
                 subject.neutral_landmarks = face->landmarks;
+                subject.neutral_stamps = stamps;
                 subject.neutral = entry;
                 return;
             } catch (const std::exception& e) {
-                fail(subject, *entry, e.what());
-                subject.reported.insert(entry);
-                done(*entry);
+                refuse_neutral(subject, *entry, e.what());
             }
         }
+    }
+    void refuse_neutral(Subject& subject, const ScanEntry& entry, const std::string& reason) const {
+        fail(subject, entry, reason);
+        subject.reported.insert(&entry);
+        done(entry);
     }
 
     /// What the average face is made from. @return the neutrals
@@ -309,24 +305,25 @@ private:
         std::vector<const ScanEntry*> neutrals;
         base::ContentHash made_from;  // its length must not grow with the subjects: every mark repeats it
         made_from.add(describe(options_) + " " + describe(options_.average));
-        std::string first_reason = "no neutral scan";
+        std::vector<std::string> reasons;
         for (const auto& subject : subjects_) {
             if (!subject.neutral) {
-                if (!subject.failures.empty() && first_reason == "no neutral scan")
-                    first_reason = subject.failures.front().scan + ": " + subject.failures.front().reason;
+                for (const auto& failure : subject.failures) reasons.push_back(failure.scan + ": " + failure.reason);
                 continue;
             }
             neutrals.push_back(subject.neutral);
-            made_from.add(" " + subject.neutral->id.name() + " " + shape_stamp(*subject.neutral));
+            made_from.add(" " + subject.neutral->id.name() + " " + subject.neutral_stamps.shape);
         }
         average_fingerprint_ = made_from.text();
-        if (neutrals.size() < 2)
-            throw InputError(fmt::format(
-                "{}: {} of {} selected subjects have a usable neutral face, and the average face needs two{}",
-                database_.root.string(), neutrals.size(), subjects_.size(),
-                neutrals.size() == subjects_.size() ? std::string("; select more subjects")
-                                                    : fmt::format(" (the first that has none: {})", first_reason)));
-        return neutrals;
+        if (neutrals.size() >= 2) return neutrals;
+        std::string mend = "; select more subjects";
+        if (neutrals.size() < subjects_.size())
+            mend =
+                fmt::format(" (the first that has none: {}{})", reasons.empty() ? "no neutral scan" : reasons.front(),
+                            reasons.size() > 1 ? fmt::format("; and {} more", reasons.size() - 1) : "");
+        throw InputError(
+            fmt::format("{}: {} of {} selected subjects have a usable neutral face, and the average face needs two{}",
+                        database_.root.string(), neutrals.size(), subjects_.size(), mend));
     }
 
     /// Whether an earlier run made it from the same.
@@ -336,27 +333,65 @@ private:
         try {
             std::string found;
             average_ = read_average_face(average_stem(root_), &found);
-            return found == average_fingerprint_;
+            return found == average_fingerprint_ && average_face_is_whole(average_stem(root_));
         } catch (const InputError&) {
             return false;  // damaged: made again
         }
     }
 
     void prepare_average() {
-        const auto neutrals = name_average();
-        if (read_average()) return;
-        std::vector<geometry::Landmarks> sets;
-        for (const auto& subject : subjects_)
-            if (subject.neutral) sets.push_back(subject.neutral_landmarks);
+        std::vector<const ScanEntry*> neutrals;
+        do {
+            neutrals = name_average();
+            if (read_average()) return;
+        } while (leave_out_neutrals());
         begin_writing();
-        double rms_mm = 0;
-        const auto consensus = consensus_landmarks(sets, options_.average.max_iterations, &rms_mm);
         average_ = build_average_face(
-            neutrals.size(), [&](std::size_t k) { return read_face(face_stem(root_, neutrals[k]->id)); }, consensus,
+            neutrals.size(), [&](std::size_t k) { return read_face(face_stem(root_, neutrals[k]->id)); }, consensus_,
             options_.average);
-        average_.consensus_rms_mm = rms_mm;
+        average_.consensus_rms_mm = consensus_rms_mm_;
         write_average_face(average_stem(root_), average_, average_fingerprint_);
         average_ = read_average_face(average_stem(root_));
+    }
+
+    /// Finds the consensus, and neutrals that would spoil it or cannot be carried to it: each gives its place to the
+    /// subject's next one. @return whether there were any
+    bool leave_out_neutrals() {
+        std::vector<Subject*> subjects;
+        std::vector<geometry::Landmarks> sets;
+        std::vector<std::string> names;
+        for (auto& subject : subjects_) {
+            if (!subject.neutral) continue;
+            subjects.push_back(&subject);
+            sets.push_back(subject.neutral_landmarks);
+            names.push_back(subject.neutral->id.name());
+        }
+        auto refused = sets_far_off(sets);
+        if (refused.empty()) {
+            try {
+                consensus_ = consensus_landmarks(sets, options_.average.max_iterations, &consensus_rms_mm_);
+            } catch (const std::exception& e) {  // too little that all have: nobody's fault alone
+                throw InputError(fmt::format("{}: no average face can be made of {}: {}", database_.root.string(),
+                                             fmt::join(names, ", "), e.what()));
+            }
+            for (std::size_t k = 0; k < sets.size(); ++k) {
+                try {
+                    (void)geometry::landmark_spline(sets[k], consensus_);
+                } catch (const std::exception& e) {
+                    refused.push_back({k, fmt::format("cannot be carried to the average face: {}", e.what())});
+                }
+            }
+        }
+        for (const auto& [k, reason] : refused) {
+            auto& subject = *subjects[k];
+            begin_writing();
+            remove_face(face_stem(root_, subject.neutral->id));  // of no use, and it would be found finished
+            refuse_neutral(subject, *subject.neutral, reason);
+            subject.neutral = nullptr;
+            subject.fresh = false;
+            grid_neutral(subject);
+        }
+        return !refused.empty();
     }
 
     /// Second pass: every scan, tied to its subject's first neutral and to the average face.
@@ -367,9 +402,7 @@ private:
                 neutral = tie_neutral(subject);
                 subject.finished.push_back(subject.neutral->id);
             } catch (const std::exception& e) {
-                fail(subject, *subject.neutral, e.what());
-                subject.reported.insert(subject.neutral);
-                done(*subject.neutral);
+                refuse_neutral(subject, *subject.neutral, e.what());
                 subject.neutral = nullptr;
             }
         }
@@ -398,8 +431,8 @@ private:
         return changed;
     }
     /// Whether the face of a first neutral is there as tie_neutral() would leave it.
-    [[nodiscard]] bool tied(const ScanEntry& entry) const {
-        auto face = read_finished(face_stem(root_, entry.id), neutral_fingerprint(entry));
+    [[nodiscard]] bool tied(const Subject& subject) const {
+        auto face = read_finished(face_stem(root_, subject.neutral->id), neutral_fingerprint(subject.neutral_stamps));
         try {
             return face && !tie(*face);
         } catch (const std::exception&) {
@@ -415,7 +448,7 @@ private:
             return neutral;
         }
         begin_writing();
-        write_finished(stem, neutral, neutral_fingerprint(*subject.neutral), files_looked_for(stem));
+        write_finished(stem, neutral, neutral_fingerprint(subject.neutral_stamps), files_looked_for(stem));
         remark(subject, neutral);  // here, not where it was gridded: it may have been in an earlier run
         ++subject.preprocessed;
         return neutral;
@@ -423,12 +456,12 @@ private:
 
     void tie_scan(Subject& subject, const Face& neutral, const ScanEntry& entry) {
         const auto stem = face_stem(root_, entry.id);
-        if (finished(stem, fingerprint(entry))) {
+        if (finished(stem, fingerprint(stamps_of(entry)))) {
             ++subject.up_to_date;
             return;
         }
-        const auto loaded = load_marked(entry);
-        Face face = preprocess_scan(loaded, options_.steps);
+        const auto read = read_scan(entry, options_.accept);
+        Face face = preprocess_scan(read.loaded, options_.steps);
         align_to_neutral(face, neutral, stable_region(face, neutral), options_.alignment);
         face.average_from_scan = neutral.average_from_scan * face.neutral_from_scan;
         try {
@@ -438,7 +471,7 @@ private:
             face.remarks.push_back(fmt::format("Eqs 5.1-5.4: {}; those of the neutral were taken", e.what()));
         }
         begin_writing();
-        write_finished(stem, face, fingerprint(entry), loaded.files_looked_for);
+        write_finished(stem, face, fingerprint(read.stamps), read.looked_for);
         remark(subject, face);
         ++subject.preprocessed;
     }
@@ -446,8 +479,8 @@ private:
     /// What of the neutral the scan's expression leaves alone.
     [[nodiscard]] geometry::VertexMask stable_region(Face& face, const Face& neutral) const {
         if (face.id.neutral()) return stable_on_every_face(neutral);
-        if (const auto expression = catalogue_.find_expression(face.id.code))
-            return stable_vertices(catalogue_, *expression, neutral);
+        if (const auto expression = face.id.expression(); catalogue_.knows(expression))
+            return stable_vertices(catalogue_, expression, neutral);
         face.remarks.push_back(fmt::format(
             "expression {} is not in the catalogue: aligned by nose bridge and temples alone", face.id.code));
         return stable_on_every_face(neutral);
@@ -455,6 +488,7 @@ private:
 
     PreprocessReport finish() {
         PreprocessReport report;
+        report.from_earlier_runs = from_earlier_runs_;
         std::vector<ScanId> ids;
         for (const auto& subject : subjects_) {
             report.preprocessed += subject.preprocessed;
@@ -482,7 +516,9 @@ private:
                                          {"subjects_left_out", report.left_out},
                                          {"hidden_subjects", database_.hidden_subjects}};
         keep_hidden_list();
-        base::write_atomically(root_ / "workspace.json", io::json_text(document));
+        base::write_atomically(list_file(root_), io::json_text(document));
+        std::error_code ignored;
+        fs::remove(list_file_before(root_), ignored);
         remove_sheets_of_hidden(Workspace(root_));
         return report;
     }
@@ -493,6 +529,9 @@ private:
     const PreprocessOptions& options_;
     const std::function<void(const std::string&)>& progress_;
     std::vector<Subject> subjects_;  // by name
+    std::size_t from_earlier_runs_ = 0;
+    geometry::Landmarks consensus_;
+    double consensus_rms_mm_ = 0;
     AverageFace average_;
     std::string average_fingerprint_;
     std::once_flag writing_;
@@ -514,6 +553,7 @@ void check_workspace_place(const database::ScanDatabase& database, const fs::pat
     if (fs::exists(root, ignored) && !fs::is_directory(root, ignored))
         throw InputError(fmt::format("{}: is a file; give a folder for the workspace", root.string()));
     const auto output = place(root), home = place(database.root);
+    database::check_path_is_utf8(output, "the workspace");
     std::set<fs::path> folders = {database.root};
     for (const auto& entry : database.scans) folders.insert(entry.scan_file.parent_path());
     for (const auto& folder : folders) {
@@ -529,18 +569,23 @@ void check_workspace_place(const database::ScanDatabase& database, const fs::pat
 
 PreprocessReport preprocess_database(const database::ScanDatabase& database, const fs::path& root,
                                      const facs::FacsCatalogue& catalogue, const PreprocessOptions& options,
-                                     const std::function<void(const std::string&)>& progress) {
+                                     const std::function<void(const std::string&)>& progress,
+                                     const base::FolderLock* lock) {
     options.check();
     check_workspace_place(database, root);
-    DatabaseRun run(database, root, catalogue, options, progress);
+    (void)selected_scans(database, options);  // nothing is made for a selection that is none
     base::check_takes_files(root);
-    return run.run();
+    const auto own = lock ? nullptr : std::make_unique<base::FolderLock>(root, base::FolderLock::Use::write);
+    remove_leftovers(root);
+    return DatabaseRun(database, root, catalogue, options, progress).run();
 }
 
 PreprocessPlan plan_preprocessing(const database::ScanDatabase& database, const fs::path& root,
                                   const facs::FacsCatalogue& catalogue, const PreprocessOptions& options) {
     options.check();
     check_workspace_place(database, root);
+    const auto lock =
+        base::is_there(root) ? std::make_unique<base::FolderLock>(root, base::FolderLock::Use::read) : nullptr;
     return DatabaseRun(database, root, catalogue, options, {}).plan();
 }
 

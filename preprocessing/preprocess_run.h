@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/folder_lock.h"
 #include "database/scan_database.h"
+#include "facs/expression.h"
 #include "facs/facs_catalogue.h"
 #include "preprocessing/average_face.h"
 #include "preprocessing/preprocess_scan.h"
@@ -17,10 +19,11 @@ struct PreprocessOptions {
     ScanSteps steps;
     AverageFaceOptions average;
     RigidAlignmentOptions alignment;
-    std::vector<std::string> subjects;  ///< empty: all; case ignored
-    std::vector<std::string> codes;     ///< expressions to take beside the neutrals, e.g. "12", "AU12", "HAPPY"; empty:
-                                        ///< all but head rotations and occlusions (groups YR, PR, CR, O, IGN)
-    void check() const;                 ///< throws InputError
+    std::vector<std::string> subjects;          ///< empty: all; case ignored
+    std::vector<facs::Expression> expressions;  ///< to take beside the neutrals; empty: all but head rotations and
+                                                ///< occlusions (groups YR, PR, CR, O, IGN)
+    std::vector<std::string> accept;  ///< kinds of the doctor's errors that refuse no scan (kinds_that_refuse())
+    void check() const;               ///< throws InputError
 };
 
 struct ScanFailure {
@@ -40,6 +43,7 @@ struct PreprocessReport {
     std::vector<ScanRemark> remarks;       ///< of the faces written in this run
     std::vector<std::string> closed_lips;  ///< scans among them whose inner lips lie on one grid vertex
     std::vector<std::string> left_out;     ///< subjects without a usable neutral
+    std::size_t from_earlier_runs = 0;     ///< scans beside the selected ones, since the workspace had them already
 };
 
 /// @throws InputError if `root` is empty, a file, a link that goes round in circles, the database's folder or anywhere
@@ -50,14 +54,21 @@ void check_workspace_place(const database::ScanDatabase& database, const std::fi
 /// finished with the same options on the same file is not done again; a face that was deleted or damaged since is. From
 /// the first face that a run writes to its end there is no workspace.json, so that nobody takes a half-made folder for
 /// a finished one. A scan that fails is reported and the rest goes on.
+/// A workspace only grows: what an earlier run with a wider selection left in it is kept up to date, too, so that all
+/// its faces are of one kind. It has one writer at a time (base/folder_lock.h). Files that a killed run left half
+/// written are deleted.
+/// The doctor's errors of unit, frame and landmarks off the scan refuse a scan. A neutral whose landmarks lie far off
+/// those of the others (preprocessing/consensus_outliers.h) gives its place to the subject's next one.
 /// Scans are aligned by what the catalogue says their expression leaves alone; of an expression that it lacks, by what
 /// no expression moves, with a remark.
 /// @param progress  called once per scan, from any thread; may be empty.
-/// @throws InputError for bad options, a `root` in the database or one that takes no files, an empty selection, or
-/// fewer than two subjects with a usable neutral.
+/// @param lock  of a caller who goes on writing there; null: the run takes its own.
+/// @throws InputError for bad options, a `root` in the database, one that takes no files or that another process uses,
+/// an empty selection, or fewer than two subjects with a usable neutral.
 PreprocessReport preprocess_database(const database::ScanDatabase& database, const std::filesystem::path& root,
                                      const facs::FacsCatalogue& catalogue, const PreprocessOptions& options = {},
-                                     const std::function<void(const std::string& scan)>& progress = {});
+                                     const std::function<void(const std::string& scan)>& progress = {},
+                                     const base::FolderLock* lock = nullptr);
 
 /// How far an earlier run got.
 struct PreprocessPlan {
@@ -76,5 +87,9 @@ struct PreprocessPlan {
 /// expressions that the database does not have.
 [[nodiscard]] std::vector<const database::ScanEntry*> selected_scans(const database::ScanDatabase& database,
                                                                      const PreprocessOptions& options);
+/// Those, and what an earlier run left in the workspace of other scans that are still in the database.
+[[nodiscard]] std::vector<const database::ScanEntry*> scans_to_preprocess(const database::ScanDatabase& database,
+                                                                          const std::filesystem::path& root,
+                                                                          const PreprocessOptions& options);
 
 }  // namespace mimik::preprocessing

@@ -1,6 +1,7 @@
 #include "preprocessing/workspace.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <system_error>
 
@@ -34,8 +35,22 @@ WorkspaceList decode_workspace(std::string_view text, const std::string& name) {
     });
 }
 
+std::optional<WorkspaceList> earlier_list(const fs::path& root) {
+    for (const auto& file : {list_file(root), list_file_before(root)}) {
+        if (!base::is_there(file)) continue;
+        try {
+            return decode_workspace(base::read_text(file, io::most_json_bytes), file.string());
+        } catch (const InputError&) {
+            return std::nullopt;  // this run writes another
+        }
+    }
+    return std::nullopt;
+}
+
 Workspace::Workspace(fs::path root) : root_(std::move(root)) {
-    const auto file = root_ / "workspace.json";
+    const auto file = list_file(root_);
+    if (base::is_there(root_) && fs::is_directory(root_))
+        lock_ = std::make_shared<base::FolderLock>(root_, base::FolderLock::Use::read);
     if (!fs::exists(file))
         throw InputError(
             fmt::format("{}: no finished workspace there; make or finish one with 'mimik preprocess DB -o {}'",
@@ -100,6 +115,41 @@ Face Workspace::face(const ScanId& id) const {
 }
 
 fs::path Workspace::stem(const ScanId& id) const { return face_stem(root_, id); }
+
+namespace {
+
+/// Named by base::write_atomically, today or in earlier versions: ".mimik-<something>.part",
+/// "face.ply.<something>.part".
+bool half_written(const fs::path& file) {
+    const auto name = file.filename().string();
+    if (!name.ends_with(".part")) return false;
+    if (name.starts_with(".mimik-")) return true;
+    return std::any_of(std::begin(written_suffixes), std::end(written_suffixes),
+                       [&](const std::string& suffix) { return name.find(suffix + ".") != std::string::npos; });
+}
+
+void remove_half_written(const fs::path& folder) {
+    std::error_code error, ignored;
+    std::vector<fs::path> files;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+        if (it->is_regular_file(ignored) && !it->is_symlink(ignored) && half_written(it->path()))
+            files.push_back(it->path());
+    for (const auto& file : files) fs::remove(file, ignored);
+}
+
+}  // namespace
+
+void remove_leftovers(const fs::path& root) {
+    for (const auto& folder : {root, average_stem(root).parent_path(), sheets_folder(root)})
+        remove_half_written(folder);
+    for (const auto& tree : {faces_folder(root), root / "models"}) {
+        std::error_code error;
+        std::vector<fs::path> folders = {tree};
+        for (fs::recursive_directory_iterator it(tree, error), end; !error && it != end; it.increment(error))
+            if (it->is_directory(error) && !it->is_symlink(error)) folders.push_back(it->path());
+        for (const auto& folder : folders) remove_half_written(folder);
+    }
+}
 
 void remove_sheets_of_hidden(const Workspace& workspace) {
     std::error_code ignored;

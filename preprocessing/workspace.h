@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/folder_lock.h"
 #include "database/scan_id.h"
 #include "facs/expression.h"
 #include "preprocessing/average_face.h"
@@ -23,6 +25,10 @@ struct WorkspaceList {
 /// `name` stands for the file. @throws InputError naming file, field and value.
 [[nodiscard]] WorkspaceList decode_workspace(std::string_view text, const std::string& name);
 
+/// What an earlier run left in a folder: of a finished workspace, or of one that a later run was stopped in. Empty if
+/// there is none, or it is damaged.
+[[nodiscard]] std::optional<WorkspaceList> earlier_list(const std::filesystem::path& root);
+
 /// A folder of preprocessed faces:
 ///   workspace.json               database, whether it has a truth, options, list of faces, hidden subjects (schema 1)
 ///   average/average_face.{ply,json}
@@ -32,7 +38,8 @@ struct WorkspaceList {
 /// database's (database::hidden_subjects_of), if that folder is still there.
 class Workspace {
 public:
-    /// @throws InputError if the folder is no finished workspace.
+    /// Keeps other processes from writing the folder as long as it lives.
+    /// @throws InputError if the folder is no finished workspace, or another process is writing it.
     explicit Workspace(std::filesystem::path root);
 
     [[nodiscard]] const std::filesystem::path& root() const { return root_; }
@@ -58,9 +65,13 @@ public:
 
 private:
     std::filesystem::path root_;
+    std::shared_ptr<const base::FolderLock> lock_;
     WorkspaceList list_;
     AverageFace average_;
 };
+
+/// Deletes what a run that was killed left half written. For who holds the folder's lock for writing.
+void remove_leftovers(const std::filesystem::path& root);
 
 /// Deletes the quality sheets of subjects who must not be shown any more.
 void remove_sheets_of_hidden(const Workspace& workspace);

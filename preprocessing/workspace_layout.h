@@ -10,9 +10,19 @@
 
 namespace mimik::preprocessing {
 
+/// What a finished workspace holds; and the same as it was before the run that is writing it, or was stopped in it.
+[[nodiscard]] inline std::filesystem::path list_file(const std::filesystem::path& root) {
+    return root / "workspace.json";
+}
+[[nodiscard]] inline std::filesystem::path list_file_before(const std::filesystem::path& root) {
+    return root / "workspace.before.json";
+}
+/// What the files of a workspace end with.
+inline constexpr const char* written_suffixes[] = {".ply", ".json", ".done", ".txt", ".png"};
+[[nodiscard]] inline std::filesystem::path faces_folder(const std::filesystem::path& root) { return root / "faces"; }
 /// Of a face's files, without .ply, .json, .done.
 [[nodiscard]] inline std::filesystem::path face_stem(const std::filesystem::path& root, const database::ScanId& id) {
-    return root / "faces" / id.subject / id.name();
+    return faces_folder(root) / id.subject / id.name();
 }
 /// Of the average face's files, without .ply and .json.
 [[nodiscard]] inline std::filesystem::path average_stem(const std::filesystem::path& root) {

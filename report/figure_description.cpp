@@ -254,7 +254,8 @@ Panel load_panel(const PanelDescription& description) {
     if (description.mesh.empty()) return panel;
 
     database::refuse_hidden_file(description.mesh);
-    if (!description.texture.empty()) database::refuse_hidden_file(description.texture);
+    for (const auto* file : {&description.texture, &description.landmarks, &description.controls})
+        if (!file->empty()) database::refuse_hidden_file(*file);
     auto face = read_face(description.mesh, description.unit);
     panel.mesh = std::move(face.mesh);
     if (panel.scalar) {

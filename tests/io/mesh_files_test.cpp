@@ -445,8 +445,9 @@ TEST(MeshFiles, units_are_known_by_name) {
     EXPECT_EQ(millimetres_per(parse_length_unit("mm")), 1);
     EXPECT_EQ(millimetres_per(parse_length_unit("cm")), 10);
     EXPECT_EQ(millimetres_per(parse_length_unit("m")), 1000);
-    EXPECT_THAT(message_of([] { (void)parse_length_unit("inch"); }),
-                HasSubstr("unit 'inch' is not known; use mm, cm or m"));
+    EXPECT_EQ(millimetres_per(parse_length_unit("inch")), 25.4);
+    EXPECT_THAT(message_of([] { (void)parse_length_unit("foot"); }),
+                HasSubstr("unit 'foot' is not known; use mm, cm, m or inch"));
 }
 
 }  // namespace

@@ -302,7 +302,8 @@ TEST_F(WorkspaceTest, the_plan_is_what_the_run_then_does_and_writes_nothing) {
     (void)preprocess(options);
     expect_plan(options, 6, 1);  // its place was taken; it is tried again
     fewer.subjects = {"bs001"};
-    EXPECT_THROW((void)plan_preprocessing(database::open_database(database_), workspace_, *catalogue_, fewer),
+    expect_plan(fewer, 6, 1);  // what an earlier run made stays
+    EXPECT_THROW((void)plan_preprocessing(database::open_database(database_), folder_.path() / "new", *catalogue_, fewer),
                  InputError);
 }
 
@@ -625,9 +626,9 @@ TEST_F(WorkspaceTest, a_selection_that_names_what_is_not_there_is_refused_by_nam
     options.subjects = {"BS000", "bs001", "bs777"};
     EXPECT_THAT(message_of<InputError>([&] { (void)preprocess(options); }), HasSubstr("no subject bs777"));
     options.subjects = {"BS000", "bs001"};
-    options.codes = {"AU12", "27"};
+    options.expressions = {*facs::parse_expression("AU12"), *facs::parse_expression("27")};
     EXPECT_THAT(message_of<InputError>([&] { (void)preprocess(options); }), HasSubstr("no scan of expression 27"));
-    options.codes = {"AU12"};
+    options.expressions = {*facs::parse_expression("AU12")};
     EXPECT_EQ(selected_scans(database::open_database(database_), options).size(), 4U);
     options.subjects = {"bs001"};
     EXPECT_THAT(message_of<InputError>([&] { (void)preprocess(options); }),
