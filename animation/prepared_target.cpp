@@ -91,7 +91,7 @@ struct PreparedTarget::Parts {
 
 PreparedTarget::PreparedTarget(const preprocessing::Face& neutral, const database::TrueScan* truth)
     : parts_(std::make_unique<Parts>()) {
-    parts_->name = neutral.id.name();
+    parts_->name = neutral.id.subject.empty() ? "the average face" : neutral.id.name();
     parts_->surface = geometry::face_surface(neutral.grid, neutral.landmarks);
     parts_->snapped_landmarks = neutral.snapped_landmarks;
     parts_->average_from_target = {modeling::average_from_scan(neutral, Normalisation::similarity),

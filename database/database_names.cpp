@@ -23,14 +23,15 @@ void check_names(const ScanDatabase& database) {
         check_path_is_utf8(entry.landmarks_file, "the landmark file");
         const auto& subject = entry.id.subject;
         if (base::equal_ignoring_case(subject, "mean"))
-            throw InputError(fmt::format("{}: its subject is called '{}', which is the word for the mean of all "
-                                         "subjects; give the subject another name",
-                                         entry.scan_file.string(), subject));
+            throw InputError(
+                fmt::format("{}: its subject is called '{}', which is the word for the mean of all "
+                            "subjects; give the subject another name",
+                            entry.scan_file.string(), subject));
         if (last && base::equal_ignoring_case(last->id.subject, subject) && last->id.subject != subject)
-            throw InputError(fmt::format("{} and {}: subjects '{}' and '{}' differ by case alone; write one spelling, "
-                                         "or give one of them another name if they are two people",
-                                         last->scan_file.string(), entry.scan_file.string(), last->id.subject,
-                                         subject));
+            throw InputError(
+                fmt::format("{} and {}: subjects '{}' and '{}' differ by case alone; write one spelling, "
+                            "or give one of them another name if they are two people",
+                            last->scan_file.string(), entry.scan_file.string(), last->id.subject, subject));
         last = &entry;
     }
 }

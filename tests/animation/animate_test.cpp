@@ -75,6 +75,13 @@ preprocessing::AverageFace* Animate::average_ = nullptr;
 test::AnalyticSubject* Animate::source_ = nullptr;
 test::AnalyticSubject* Animate::target_ = nullptr;
 
+TEST_F(Animate, the_average_face_is_called_so) {
+    auto average = target_->neutral;
+    average.id = {};
+    EXPECT_EQ(PreparedTarget(average).name(), "the average face");
+    EXPECT_EQ(PreparedTarget(target_->neutral).name(), target_->neutral.id.name());
+}
+
 TEST_F(Animate, at_magnitude_zero_is_the_neutral_face) {
     const auto model = smile();
     const PreparedTarget target(target_->neutral);

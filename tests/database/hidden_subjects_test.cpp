@@ -167,5 +167,77 @@ TEST_F(RefuseHiddenFile, a_manifest_beside_or_below_the_list_says_whose_file_it_
     EXPECT_THAT(refused("db/1.ply"), HasSubstr("subject 'müller'"));  // a manifest below the list
 }
 
+TEST_F(RefuseHiddenFile, a_list_of_the_database_hides_the_files_of_a_workspace_that_was_made_before) {
+    const TemporaryFolder elsewhere;
+    const auto face = elsewhere.path() / "work/faces/bs001/bs001_N_N_0.ply";
+    base::write_atomically(face, "ply");
+    base::write_atomically(elsewhere.path() / "work/workspace.json",
+                           R"({"database": ")" + folder_.path().string() + R"(", "hidden_subjects": ["bs003"]})");
+    const auto error = [](const std::filesystem::path& file) {
+        return message_of<InputError>([&] { refuse_hidden_file(file); });
+    };
+    EXPECT_EQ(error(face), shown);
+    list("1\n");
+    EXPECT_THAT(error(face), AllOf(HasSubstr("subject 'bs001' stands in"), HasSubstr(folder_.path().string())));
+    EXPECT_THAT(error(elsewhere.path() / "work/models/default/bs001/AU12.json"), HasSubstr("subject 'bs001'"));
+    EXPECT_THAT(error(elsewhere.path() / "work/faces/bs003/bs003_N_N_0.json"),
+                HasSubstr("subject 'bs003' was hidden when"));
+    EXPECT_EQ(error(elsewhere.path() / "work/faces/bs002/bs002_N_N_0.ply"), shown);
+    // While a run writes the workspace, too.
+    std::filesystem::rename(elsewhere.path() / "work/workspace.json", elsewhere.path() / "work/workspace.before.json");
+    EXPECT_THAT(error(face), HasSubstr("subject 'bs001' stands in"));
+}
+
+TEST_F(RefuseHiddenFile, a_mesh_that_says_whose_it_is_is_refused_wherever_it_lies) {
+    list("bs001\n");
+    const TemporaryFolder elsewhere;
+    const auto database = folder_.path().string();
+    const auto write = [&](const char* name, const std::string& text) {
+        base::write_atomically(elsewhere.path() / name, text);
+        return message_of<InputError>([&] { refuse_hidden_file(elsewhere.path() / name); });
+    };
+    const auto ply = [&](const std::string& target) {
+        return "ply\nformat ascii 1.0\ncomment made_by: Mimik\ncomment target: " + target +
+               "\ncomment database: " + database + "\nend_header\n";
+    };
+    EXPECT_THAT(write("a.ply", ply("bs001_N_N_0")), HasSubstr("subject 'bs001' stands in"));
+    EXPECT_EQ(write("b.ply", ply("bs002_N_N_0")), shown);
+    EXPECT_THAT(write("c.obj", "# source: the mean (bs002_N_N_0 bs001_N_N_0)\n# database: " + database + "\nv 0 0 0\n"),
+                HasSubstr("subject 'bs001' stands in"));
+    const auto array = [](const std::string& name, const std::string& value) {
+        std::string numbers;
+        for (const char c : value) numbers += std::to_string(static_cast<unsigned char>(c)) + " ";
+        return "<Array type=\"String\" Name=\"" + name +
+               "\" NumberOfComponents=\"1\" NumberOfTuples=\"1\" format=\"ascii\">\n" + numbers + "0\n</Array>\n";
+    };
+    EXPECT_THAT(write("d.vtp", "<VTKFile><PolyData><FieldData>\n" + array("subjects", "bs007 bs001") +
+                                   array("database", database) + "</FieldData></PolyData></VTKFile>"),
+                HasSubstr("subject 'bs001' stands in"));
+    const auto glb = [](std::string json) {
+        while (json.size() % 4 != 0) json += ' ';
+        const auto word = [](std::size_t value) {
+            return std::string{static_cast<char>(value & 0xff), static_cast<char>(value >> 8 & 0xff), 0, 0};
+        };
+        return "glTF" + word(2) + word(20 + json.size()) + word(json.size()) + "JSON" + json;
+    };
+    EXPECT_THAT(
+        write("e.glb", glb(R"({"asset":{"extras":{"target":"bs001_N_N_0","database":")" + database + R"("}}})")),
+        HasSubstr("subject 'bs001' stands in"));
+    EXPECT_THAT(write("f.json", R"({"sources": ["bs001_N_N_0"], "schema": 1})"), shown);  // a model says no database
+    EXPECT_EQ(write("g.ply", "ply\ncomment target: bs001_N_N_0\ncomment database: ../db\nend_header\n"), shown);
+    EXPECT_EQ(write("h.glb", "glTF"), shown);
+}
+
+TEST_F(RefuseHiddenFile, a_list_that_is_a_folder_is_an_error_and_hides_nobody_in_silence) {
+    std::filesystem::create_directories(folder_.path() / "Unallowed_Subjects.txt");
+    EXPECT_THAT(refused("bs001/x.bnt"),
+                HasSubstr("Unallowed_Subjects.txt: is a folder, so nobody knows whom it hides"));
+    const std::vector<std::string> subjects = {"bs001"};
+    EXPECT_THAT(message_of<InputError>([&] { (void)hidden_subjects_of(folder_.path(), subjects); }),
+                HasSubstr("is a folder, so nobody knows whom it hides"));
+    EXPECT_THAT(message_of<InputError>([&] { (void)hidden_subjects_of(folder_.path() / "a", subjects); }),
+                HasSubstr("is a folder"));
+}
+
 }  // namespace
 }  // namespace mimik::database

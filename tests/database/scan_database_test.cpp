@@ -15,6 +15,7 @@
 namespace mimik::database {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -362,6 +363,35 @@ TEST(Load, a_texture_name_with_a_folder_is_remarked_with_the_file_and_not_follow
                 Contains(testing::AllOf(HasSubstr("bs000_N_N_0.bnt: "), HasSubstr("../../secret.png"))));
     EXPECT_EQ(loaded.entry.texture_file.filename(), "bs000_N_N_0.png");  // the one beside it, by its name
     EXPECT_THAT(message_of<InputError>([&] { (void)read_bnt_scan(file); }), HasSubstr("../../secret.png"));
+}
+
+TEST(DatabaseNames, a_subject_called_mean_twins_by_case_and_bytes_that_are_no_utf8_are_refused) {
+    const TemporaryFolder folder;
+    const auto error = [&](const std::string& rows) {
+        base::write_atomically(folder.path() / "manifest.csv", "subject,expression,scan\n" + rows);
+        return message_of<InputError>([&] { (void)open_database(folder.path()); });
+    };
+    EXPECT_THAT(error("Mean,N,a.ply\n"),
+                AllOf(HasSubstr("a.ply: its subject is called 'Mean'"), HasSubstr("give the subject another name")));
+    EXPECT_THAT(
+        error("anna,N,a.ply\nAnna,AU12,b.ply\n"),
+        AllOf(HasSubstr("subjects 'anna' and 'Anna' differ by case alone"), HasSubstr("a.ply"), HasSubstr("b.ply")));
+    EXPECT_THAT(error("anna,N,\xe4.ply\n"), HasSubstr("bytes that are no UTF-8"));
+    EXPECT_EQ(error("anna,N,\xc3\xa4.ply\n"), "nothing was thrown");
+    const auto latin = folder.path() / "\xe4";
+    base::write_atomically(latin / "manifest.csv", "subject,expression,scan\nanna,N,a.ply\n");
+    EXPECT_THAT(message_of<InputError>([&] { (void)open_database(latin); }), HasSubstr("the folder's path has bytes"));
+}
+
+TEST(DatabaseUnit, a_unit_is_given_to_scans_of_which_the_manifest_says_none) {
+    const TemporaryFolder folder;
+    base::write_atomically(folder.path() / "manifest.csv",
+                           "subject,expression,scan,unit\nanna,N,a.ply,\nben,N,b.ply,mm\ncaro,N,c.ply,inch\n");
+    const auto database = open_database(folder.path(), io::LengthUnit::centimetre);
+    EXPECT_EQ(database.scans[0].unit, io::LengthUnit::centimetre);
+    EXPECT_EQ(database.scans[1].unit, io::LengthUnit::millimetre);
+    EXPECT_EQ(database.scans[2].unit, io::LengthUnit::inch);
+    EXPECT_EQ(open_database(folder.path()).scans[0].unit, io::LengthUnit::millimetre);
 }
 
 }  // namespace

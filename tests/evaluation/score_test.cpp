@@ -57,6 +57,14 @@ TEST(Score, of_overshooting_is_negative_and_counted_as_worse_than_nothing) {
     EXPECT_EQ(score.explained_median, -0.5);
 }
 
+TEST(Score, of_an_expressive_scan_that_equals_its_neutral_is_unknown) {
+    const auto still = score_of({{"nothing", "", 2.5e-14, 3e-14}, {"own", "bs001", 2, 1}}, "own");
+    EXPECT_EQ(still.explained, std::nullopt);
+    EXPECT_EQ(still.explained_median, std::nullopt);
+    EXPECT_EQ(still.explained_whole, std::nullopt);
+    EXPECT_EQ(still.error_mm, 2);
+}
+
 TEST(Score, of_the_whole_face_and_of_true_distances_is_told_where_it_is_known) {
     const auto known = score_of({{"nothing", "", 2, 4, 3}, {"own", "bs001", 1, 3, 1.5}}, "own");
     EXPECT_EQ(known.explained_whole, 0.25);

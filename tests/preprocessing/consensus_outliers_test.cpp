@@ -32,14 +32,14 @@ std::vector<Landmarks> people(std::size_t count) {
         const auto place = geometry::Transform(Eigen::Translation3d(20.0 * static_cast<double>(k), -30, 800) *
                                                Eigen::AngleAxisd(0.1 * static_cast<double>(k % 3), Point::UnitY()));
         std::size_t m = 0;
-        sets.push_back(
-            changed(geometry::transformed(test::AnalyticFace{0.9 + 0.05 * static_cast<double>(k % 5)}.landmarks(), place),
-                    [&](Landmark& mark) {
-                        ++m;
-                        mark.position_mm += Point(static_cast<double>((7 * k + 3 * m) % 13) - 6,
-                                                  static_cast<double>((5 * k + 11 * m) % 9) - 4,
-                                                  static_cast<double>((3 * k + 5 * m) % 7) - 3);
-                    }));
+        sets.push_back(changed(
+            geometry::transformed(test::AnalyticFace{0.9 + 0.05 * static_cast<double>(k % 5)}.landmarks(), place),
+            [&](Landmark& mark) {
+                ++m;
+                mark.position_mm +=
+                    Point(static_cast<double>((7 * k + 3 * m) % 13) - 6, static_cast<double>((5 * k + 11 * m) % 9) - 4,
+                          static_cast<double>((3 * k + 5 * m) % 7) - 3);
+            }));
     }
     return sets;
 }
@@ -61,7 +61,8 @@ TEST(ConsensusOutliers, a_lost_decimal_point_is_named_with_its_landmark) {
             const auto far = sets_far_off(sets);
             ASSERT_EQ(far.size(), 1U) << count << " " << bad;
             EXPECT_EQ(far[0].set, bad);
-            EXPECT_THAT(far[0].reason, AllOf(HasSubstr("its landmark 'eye_outer_left' lies "), HasSubstr("mark it again")));
+            EXPECT_THAT(far[0].reason,
+                        AllOf(HasSubstr("its landmark 'eye_outer_left' lies "), HasSubstr("mark it again")));
         }
 }
 

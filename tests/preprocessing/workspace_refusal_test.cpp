@@ -69,11 +69,11 @@ protected:
 
 TEST_F(WorkspaceRefusalTest, a_neutral_in_another_unit_or_frame_is_refused_in_the_doctors_words_and_the_rest_goes_on) {
     const std::function<Point(Point)> faults[] = {
-        [](Point p) { return Point(p / 10); },                  // centimetres
-        [](Point p) { return Point(p / 25.4); },                // inches
-        [](Point p) { return Point(10 * p); },                  //
-        [](Point p) { return Point(-p.x(), -p.y(), p.z()); },   // upside down
-        [](Point p) { return Point(-p.x(), p.y(), -p.z()); },   // turned away
+        [](Point p) { return Point(p / 10); },                 // centimetres
+        [](Point p) { return Point(p / 25.4); },               // inches
+        [](Point p) { return Point(10 * p); },                 //
+        [](Point p) { return Point(-p.x(), -p.y(), p.z()); },  // upside down
+        [](Point p) { return Point(-p.x(), p.y(), -p.z()); },  // turned away
     };
     (void)preprocess();
     const auto whole = base::read_text(workspace_ / "average" / "average_face.ply");
@@ -90,8 +90,9 @@ TEST_F(WorkspaceRefusalTest, a_neutral_in_another_unit_or_frame_is_refused_in_th
 }
 
 TEST_F(WorkspaceRefusalTest, an_expressive_scan_off_its_landmarks_fails_alone) {
-    change("bs001_LFAU_12_0", [](Point p) { return p; },
-           [](const std::string&, const Point& p) { return Point(p + Point(0, 60, 0)); });
+    change(
+        "bs001_LFAU_12_0", [](Point p) { return p; },
+        [](const std::string&, const Point& p) { return Point(p + Point(0, 60, 0)); });
     const auto report = preprocess();
     ASSERT_EQ(report.failures.size(), 1U);
     EXPECT_EQ(report.failures[0].scan, "bs001_LFAU_12_0");
@@ -123,8 +124,9 @@ TEST_F(WorkspaceRefusalTest, an_accepted_kind_of_error_is_a_remark_and_other_wor
     ASSERT_EQ(report.failures.size(), 1U);
     EXPECT_THAT(report.failures[0].reason, HasSubstr("times as large as those of the other neutral faces"));
     test::write_analytic_scan(database_, "bs003_N_N_0", {1.02, 0}, test::analytic_pose(1));
-    change("bs001_LFAU_12_0", [](Point p) { return p; },
-           [](const std::string& name, const Point& p) { return Point(name == "chin" ? p + Point(0, -60, 0) : p); });
+    change(
+        "bs001_LFAU_12_0", [](Point p) { return p; },
+        [](const std::string& name, const Point& p) { return Point(name == "chin" ? p + Point(0, -60, 0) : p); });
     EXPECT_EQ(preprocess().failures.size(), 1U);
     options.accept = {"landmarks-off-scan"};
     const auto accepted = preprocess(options);
@@ -145,7 +147,8 @@ TEST_F(WorkspaceRefusalTest, a_neutral_far_off_the_others_is_named_and_the_next_
     };
     auto options = quick();
     options.accept = {"landmarks-off-scan", "unit"};
-    change("bs003_N_N_0", [](Point p) { return p; }, off);
+    change(
+        "bs003_N_N_0", [](Point p) { return p; }, off);
     auto report = preprocess(options);
     ASSERT_EQ(report.failures.size(), 1U);
     EXPECT_EQ(report.failures[0].scan, "bs003_N_N_0");
@@ -163,8 +166,9 @@ TEST_F(WorkspaceRefusalTest, a_neutral_far_off_the_others_is_named_and_the_next_
 TEST_F(WorkspaceRefusalTest, a_neutral_whose_marks_lie_on_one_line_stops_nobody_else) {
     auto options = quick();
     options.accept = {"landmarks-off-scan", "unit", "frame", "sides"};
-    change("bs003_N_N_0", [](Point p) { return p; },
-           [](const std::string&, const Point& p) { return Point(0, p.y(), 0); });
+    change(
+        "bs003_N_N_0", [](Point p) { return p; },
+        [](const std::string&, const Point& p) { return Point(0, p.y(), 0); });
     const auto report = preprocess(options);
     ASSERT_EQ(report.failures.size(), 1U);
     EXPECT_EQ(report.failures[0].scan, "bs003_N_N_0");

@@ -303,8 +303,9 @@ TEST_F(WorkspaceTest, the_plan_is_what_the_run_then_does_and_writes_nothing) {
     expect_plan(options, 6, 1);  // its place was taken; it is tried again
     fewer.subjects = {"bs001"};
     expect_plan(fewer, 6, 1);  // what an earlier run made stays
-    EXPECT_THROW((void)plan_preprocessing(database::open_database(database_), folder_.path() / "new", *catalogue_, fewer),
-                 InputError);
+    EXPECT_THROW(
+        (void)plan_preprocessing(database::open_database(database_), folder_.path() / "new", *catalogue_, fewer),
+        InputError);
 }
 
 TEST_F(WorkspaceTest, an_image_beside_a_mesh_without_texture_coordinates_is_no_texture_of_the_face) {

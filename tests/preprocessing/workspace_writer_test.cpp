@@ -137,12 +137,12 @@ TEST_F(WorkspaceWriterTest, a_narrower_run_that_is_stopped_hides_nothing_from_th
     narrower.subjects = {"bs000", "bs001"};
     narrower.steps.cleaning.spike_mm = 5;
     base::set_thread_count(1);
-    EXPECT_THROW((void)preprocess_database(database::open_database(database_), workspace_, facs::builtin_catalogue(),
-                                           narrower,
-                                           [](const std::string& scan) {
-                                               if (scan == "bs001_LFAU_12_0") throw Stopped();
-                                           }),
-                 Stopped);
+    EXPECT_THROW(
+        (void)preprocess_database(database::open_database(database_), workspace_, facs::builtin_catalogue(), narrower,
+                                  [](const std::string& scan) {
+                                      if (scan == "bs001_LFAU_12_0") throw Stopped();
+                                  }),
+        Stopped);
     base::set_thread_count(0);
     EXPECT_FALSE(fs::exists(workspace_ / "workspace.json"));
     EXPECT_EQ(preprocess(narrower).from_earlier_runs, 2U);
