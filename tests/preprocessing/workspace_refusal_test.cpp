@@ -76,7 +76,6 @@ TEST_F(WorkspaceRefusalTest, a_neutral_in_another_unit_or_frame_is_refused_in_th
         [](Point p) { return Point(-p.x(), p.y(), -p.z()); },  // turned away
     };
     (void)preprocess();
-    const auto whole = base::read_text(workspace_ / "average" / "average_face.ply");
     for (const auto& fault : faults) {
         test::write_analytic_scan(database_, "bs003_N_N_0", {1.02, 0}, test::analytic_pose(1));
         change("bs003_N_N_0", fault);

@@ -1,5 +1,6 @@
 // One writer, faces of one kind, and nothing damaged, stale or half written that goes unnoticed.
 #include <atomic>
+#include <csignal>
 #include <fstream>
 #include <map>
 #include <thread>
