@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <locale>
+#include <new>
 #include <optional>
 #include <streambuf>
 #include <system_error>
@@ -40,7 +41,12 @@ Container read_first(const std::filesystem::path& file, std::uintmax_t size) {
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(fmt::format("{}: cannot be opened ({})", file.string(), std::strerror(errno)));
-    Container content(static_cast<std::size_t>(size), typename Container::value_type{});
+    Container content;
+    try {
+        content.resize(static_cast<std::size_t>(size));
+    } catch (const std::bad_alloc&) {
+        throw InputError(fmt::format("{}: there is not enough memory for its {} bytes", file.string(), size));
+    }
     stream.read(reinterpret_cast<char*>(content.data()), static_cast<std::streamsize>(size));
     if (static_cast<std::uintmax_t>(stream.gcount()) != size)
         throw InputError(fmt::format("{}: only {} of its {} bytes could be read; is another program writing it?",

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
@@ -25,15 +24,17 @@ std::string_view without_plus(std::string_view word) {
 
 LineReader::LineReader(std::string_view text, std::string file_name) : text_(text), file_name_(std::move(file_name)) {
     if (text_.starts_with("\xEF\xBB\xBF")) offset_ = 3;
+    const auto end = text_.find_first_of("\r\n");
+    bare_returns_ =
+        end != std::string_view::npos && !text_.substr(end).starts_with('\n') && !text_.substr(end).starts_with("\r\n");
 }
 
 bool LineReader::next() {
     if (offset_ >= text_.size()) return false;
-    const auto* begin = text_.data() + offset_;
-    const auto* end = static_cast<const char*>(std::memchr(begin, '\n', text_.size() - offset_));
-    const std::size_t length = end ? static_cast<std::size_t>(end - begin) : text_.size() - offset_;
+    const auto end = bare_returns_ ? text_.find_first_of("\r\n", offset_) : text_.find('\n', offset_);
+    const std::size_t length = std::min(end, text_.size()) - offset_;
     line_ = text_.substr(offset_, length);
-    offset_ += length + (end ? 1 : 0);
+    offset_ = std::min(offset_ + length + 1, text_.size());
     if (line_.ends_with('\r')) line_.remove_suffix(1);
     ++number_;
     return true;
@@ -90,6 +91,21 @@ std::optional<double> parse_double(std::string_view word) {
     return sign * (tiny ? 0.0 : std::numeric_limits<double>::infinity());
 }
 
+std::optional<double> parse_double_or_nan(std::string_view word) {
+    if (const auto value = parse_double(word)) return value;
+    auto text = lower_case(without_plus(word));
+    const bool negative = text.starts_with('-');
+    if (negative) text.erase(0, 1);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto hash = text.find('#');
+    const auto kind = std::string_view(text).substr(hash == std::string::npos ? 0 : hash + 1);
+    if (hash != std::string::npos && kind.starts_with("inf")) return negative ? -infinity : infinity;
+    const bool no_number =
+        kind.starts_with("nan") || (hash != std::string::npos &&
+                                    (kind.starts_with("qnan") || kind.starts_with("snan") || kind.starts_with("ind")));
+    return no_number ? std::optional(std::numeric_limits<double>::quiet_NaN()) : std::nullopt;
+}
+
 std::optional<std::int64_t> parse_integer(std::string_view word) {
     word = without_plus(word);
     std::int64_t value = 0;
@@ -119,6 +135,53 @@ bool is_utf8(std::string_view text) {
         at += size;
     }
     return true;
+}
+
+std::optional<std::string> from_utf16(std::string_view text) {
+    const auto zero_at = [&](std::size_t at) { return at < text.size() && text[at] == '\0'; };
+    const bool marked_little = text.starts_with("\xFF\xFE"), marked_big = text.starts_with("\xFE\xFF");
+    const bool little = marked_little || (!zero_at(0) && zero_at(1) && !zero_at(2) && zero_at(3));
+    const bool big = marked_big || (zero_at(0) && !zero_at(1) && zero_at(2) && !zero_at(3) && text.size() > 3);
+    if (!little && !big) return std::nullopt;
+    std::size_t at = marked_little || marked_big ? 2 : 0;
+    const auto next_unit = [&] {
+        const auto first = static_cast<unsigned char>(text[at]), second = static_cast<unsigned char>(text[at + 1]);
+        at += 2;
+        return static_cast<std::uint32_t>(little ? second << 8U | first : first << 8U | second);
+    };
+    std::string out;
+    out.reserve(text.size() / 2);
+    while (at + 1 < text.size()) {
+        std::uint32_t code = next_unit();
+        const bool lead = code >= 0xD800 && code < 0xDC00;
+        if (lead && at + 1 < text.size()) {
+            const auto before = at;
+            const std::uint32_t trail = next_unit();
+            if (trail >= 0xDC00 && trail < 0xE000)
+                code = 0x10000 + ((code - 0xD800) << 10U) + (trail - 0xDC00);
+            else
+                at = before;
+        }
+        if (code >= 0xD800 && code < 0xE000) code = 0xFFFD;
+        const auto add = [&](std::uint32_t byte) { out += static_cast<char>(byte); };
+        const auto add_tail = [&](unsigned shift) { add(0x80U | (code >> shift & 0x3FU)); };
+        if (code < 0x80) {
+            add(code);
+        } else if (code < 0x800) {
+            add(0xC0U | code >> 6U);
+            add_tail(0);
+        } else if (code < 0x10000) {
+            add(0xE0U | code >> 12U);
+            add_tail(6);
+            add_tail(0);
+        } else {
+            add(0xF0U | code >> 18U);
+            add_tail(12);
+            add_tail(6);
+            add_tail(0);
+        }
+    }
+    return out;
 }
 
 std::string in_quotes(std::string_view word) {

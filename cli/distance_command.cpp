@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,11 +33,48 @@ struct Request {
     std::filesystem::path test, reference, output;
 };
 
-geometry::Mesh read_test(const std::filesystem::path& file) {
-    if (base::lower_case(file.extension().string()) != ".csv") return io::read_mesh(file);
-    geometry::Mesh cloud;
-    cloud.vertices_mm = io::read_points_csv(file).points;
+io::MeshFile read_surface(const std::filesystem::path& file) {
+    auto content = io::read_mesh_file(file, io::LengthUnit::millimetre, io::MeshParts::all, io::BadTexture::report);
+    if (io::mesh_format(file) != io::MeshFormat::pcd) return content;
+    if (const auto dropped = io::drop_unmeasured(content); dropped > 0)
+        content.remarks.push_back(
+            fmt::format("{}: {} points that were not measured (NaN) are left out", file.string(), dropped));
+    if (content.mesh.vertices_mm.empty())
+        throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", file.string()));
+    return content;
+}
+
+io::MeshFile read_test(const std::filesystem::path& file) {
+    const auto extension = base::lower_case(file.extension().string());
+    if (extension != ".csv" && extension != ".tsv") return read_surface(file);
+    auto table = io::read_points_csv(file);
+    io::MeshFile cloud;
+    cloud.mesh.vertices_mm = std::move(table.points);
+    cloud.frame = table.frame;
     return cloud;
+}
+
+/// Brings the reference into the frame of the test, so that what is written keeps the test's own. Where only one states
+/// a frame (LPS or RAS), the other's is the one in which the first lies on it, else LPS, as Slicer takes a mesh.
+void bring_into_one_frame(io::MeshFile& reference, const io::MeshFile& test, const Request& request,
+                          std::vector<std::string>& remarks) {
+    if (!reference.frame && !test.frame) return;
+    const auto frame_of = [](const io::MeshFile& file, const io::MeshFile& other) {
+        if (file.frame) return *file.frame;
+        auto points = other.mesh.vertices_mm;
+        if (other.frame == io::BodyFrame::ras) io::negate_x_and_y(points);
+        return io::frame_judged_by(points, file.mesh.vertices_mm).value_or(io::BodyFrame::lps);
+    };
+    const auto test_frame = frame_of(test, reference), reference_frame = frame_of(reference, test);
+    if (test_frame == reference_frame) return;
+    io::negate_x_and_y(reference.mesh.vertices_mm);
+    const auto described = [](const std::filesystem::path& file, const io::MeshFile& mesh, io::BodyFrame frame) {
+        return fmt::format("{} {} {}", file.string(), mesh.frame ? "says that it is in" : "is taken to be in",
+                           io::to_string(frame));
+    };
+    remarks.push_back(fmt::format("{}, {}; x and y of the reference are negated",
+                                  described(request.test, test, test_frame),
+                                  described(request.reference, reference, reference_frame)));
 }
 
 nlohmann::ordered_json json_of(const DistanceSummary& s) {
@@ -49,10 +88,14 @@ std::string line_of(const char* side, const DistanceSummary& s) {
                        s.rms_mm, s.median_mm, s.p95_mm, s.max_mm, s.border_hits);
 }
 
-void write_distances(const std::filesystem::path& file, geometry::Mesh mesh, const VertexDistances& distances) {
+void write_distances(const std::filesystem::path& file, geometry::Mesh mesh, std::optional<io::BodyFrame> frame,
+                     const VertexDistances& distances, std::vector<std::string>& remarks) {
     geometry::set_attribute(mesh, {"distance_mm", 1, distances.distance_mm});
     geometry::set_attribute(mesh, {"on_border", 1, {distances.on_border.begin(), distances.on_border.end()}});
-    io::write_mesh(file, mesh);
+    io::MeshWriteOptions options;
+    options.frame = frame;
+    auto written = io::write_mesh(file, mesh, options);
+    remarks.insert(remarks.end(), written.begin(), written.end());
 }
 
 /// Vertices that no polygon has: cells of a workspace's grid outside the face, or points beside a mesh.
@@ -76,16 +119,26 @@ void run(const Request& request) {
         refuse_range_scan(file);
         database::refuse_hidden_file(file);
     }
-    auto test = naming(request.test, [&] { return read_test(request.test); });
-    const auto reference = naming(request.reference, [&] { return io::read_mesh(request.reference); });
+    auto test_file = naming(request.test, [&] { return read_test(request.test); });
+    auto reference_file = naming(request.reference, [&] { return read_surface(request.reference); });
+    std::vector<std::string> remarks = test_file.remarks;
+    remarks.insert(remarks.end(), reference_file.remarks.begin(), reference_file.remarks.end());
+    bring_into_one_frame(reference_file, test_file, request, remarks);
+    auto& test = test_file.mesh;
+    const auto& reference = reference_file.mesh;
     if (reference.faces.size() == 0)
         throw InputError(
             fmt::format("{}: the reference has {} vertices but no face; distances need a surface: give a mesh",
                         request.reference.string(), reference.vertices_mm.size()));
-    const auto distance = naming(request.test, [&] { return evaluation::surface_distance(test, reference); });
-    if (const auto loose = test.faces.size() > 0 ? vertices_without_face(test) : 0; loose > 0 && !request.common.quiet)
-        say_note(fmt::format("{}: {} vertices belong to no face and count all the same", request.test.string(), loose));
-    if (!request.output.empty()) write_distances(request.output, std::move(test), distance.test_to_reference);
+    const auto distance =
+        naming_any({request.test, request.reference}, [&] { return evaluation::surface_distance(test, reference); });
+    if (const auto loose = test.faces.size() > 0 ? vertices_without_face(test) : 0; loose > 0)
+        remarks.push_back(
+            fmt::format("{}: {} vertices belong to no face and count all the same", request.test.string(), loose));
+    if (!request.output.empty())
+        write_distances(request.output, std::move(test), test_file.frame, distance.test_to_reference, remarks);
+    if (!request.common.quiet)
+        for (const auto& remark : remarks) say_note(remark);
     if (request.common.json) {
         nlohmann::ordered_json document = {
             {"schema", 1}, {"units", "mm"}, {"test_to_reference", json_of(distance.test_to_reference.summary)}};

@@ -77,6 +77,8 @@ void draw(const report::FigureDescription& description, const std::string& outpu
     if (!base::equal_ignoring_case(std::filesystem::path(output).extension().string(), ".png"))
         throw InputError(fmt::format("--output is '{}'; figures are written as .png", output));
     const auto figure = report::load_figure(description);
+    if (!common.quiet)
+        for (const auto& remark : figure.remarks) std::cerr << "note: " << remark << '\n';
     const auto image = figures::render(figure);
     io::write_png(base::where_links_lead(output), image);
     if (common.json)

@@ -21,7 +21,7 @@ namespace {
 struct WarpArguments {
     Common common;
     std::filesystem::path from, to, input, output;
-    std::string kernel = "r";
+    std::string kernel = "r", pair_by = "name", frame;
     geometry::ThinPlateSplineOptions options;
 };
 
@@ -30,17 +30,20 @@ int run_warp(const WarpArguments& arguments) {
     refuse_range_scan(arguments.input);
     auto options = arguments.options;
     options.kernel = kernel_by_name(arguments.kernel);
-    const io::MadeBy made_by = {{"made_by", fmt::format("Mimik {} warp", base::version())},
-                                {"source", arguments.input.filename().string()},
-                                {"from_landmarks", arguments.from.filename().string()},
-                                {"to_landmarks", arguments.to.filename().string()},
-                                {"kernel", arguments.kernel},
-                                {"smoothing", fmt::format("{}", arguments.options.smoothing)}};
+    io::WarpFileOptions more;
+    more.pair_by = arguments.pair_by == "order" ? io::PairBy::order : io::PairBy::name;
+    if (!arguments.frame.empty()) more.input_frame = io::parse_body_frame(arguments.frame);
+    more.made_by = {{"made_by", fmt::format("Mimik {} warp", base::version())},
+                    {"source", arguments.input.filename().string()},
+                    {"from_landmarks", arguments.from.filename().string()},
+                    {"to_landmarks", arguments.to.filename().string()},
+                    {"kernel", arguments.kernel},
+                    {"smoothing", fmt::format("{}", arguments.options.smoothing)}};
     const auto output = base::where_links_lead(arguments.output);
     const auto report = naming_any({arguments.from, arguments.to, arguments.input, arguments.output}, [&] {
         return io::warp_file(
             arguments.from, arguments.to, arguments.input, output, options,
-            [](const std::filesystem::path& image) { database::refuse_hidden_file(image); }, made_by);
+            [](const std::filesystem::path& image) { database::refuse_hidden_file(image); }, more);
     });
     if (arguments.common.json) {
         std::cout << io::json_text(nlohmann::json{{"schema", 1},
@@ -65,8 +68,18 @@ int run_warp(const WarpArguments& arguments) {
 void add_warp_command(CLI::App& app, int& exit_code) {
     auto arguments = std::make_shared<WarpArguments>();
     auto* command = app.add_subcommand("warp", "Warp a mesh or points by landmarks (thin-plate spline)");
-    command->add_option("--from", arguments->from, "Landmarks on the input: CSV with name,x,y,z")->required();
+    command
+        ->add_option("--from", arguments->from,
+                     "Landmarks on the input: .csv .tsv .pp .fcsv .mrk.json .lm3 .ljson .lan (docs/formats.md)")
+        ->required();
     command->add_option("--to", arguments->to, "Where they go: the same names")->required();
+    command->add_option("--pair-by", arguments->pair_by, "name; or order, where the names of two lists differ")
+        ->check(CLI::IsMember({"name", "order"}))
+        ->capture_default_str();
+    command
+        ->add_option("--frame", arguments->frame,
+                     "LPS or RAS: frame of an INPUT that does not say it, for landmarks that do (Slicer)")
+        ->check(CLI::IsMember({"LPS", "RAS"}, CLI::ignore_case));
     command->add_option("--kernel", arguments->kernel, "r, or r2logr (r^2 ln r^2)")
         ->check(CLI::IsMember({"r", "r2logr"}))
         ->capture_default_str();

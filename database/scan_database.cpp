@@ -32,12 +32,18 @@ using base::lower_case;
 
 bool same(std::string_view a, std::string_view b) { return base::equal_ignoring_case(a, b); }
 
+/// What systems leave beside the files of others: ".DS_Store", "._NAME" and "__MACOSX" (macOS), and hidden files.
+bool is_of_the_system(const fs::path& path) {
+    const auto name = path.filename().string();
+    return name.starts_with('.') || name == "__MACOSX";
+}
+
 /// Names and kinds of what is in a folder, in the order of their names: the order of a folder is nobody's promise.
 std::vector<fs::path> listing(const fs::path& folder, std::vector<std::string>& remarks) {
     std::vector<fs::path> entries;
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-        entries.push_back(it->path());
+        if (!is_of_the_system(it->path())) entries.push_back(it->path());
     if (error)
         remarks.push_back(
             fmt::format("{}: cannot be listed ({}); its scans are left out", folder.string(), error.message()));
@@ -63,7 +69,8 @@ std::size_t rank(const std::vector<std::string_view>& extensions, const fs::path
 /// What lies in one folder, by the name without its extension.
 std::map<std::string, ScanEntry> by_stem(const std::vector<fs::path>& entries) {
     static const std::vector<std::string_view> scans = {".bnt", ".ply", ".pcd", ".obj", ".stl"};
-    static const std::vector<std::string_view> landmarks = {".lm3", ".pp", ".fcsv", ".mrk.json", ".csv"};
+    static const std::vector<std::string_view> landmarks = {".lm3", ".pp",  ".fcsv", ".mrk.json",
+                                                            ".csv", ".tsv", ".ljson"};
     static const std::vector<std::string_view> textures = {".png", ".jpg", ".jpeg", ".bmp"};
     const auto prefer = [](fs::path& kept, const fs::path& candidate, const std::vector<std::string_view>& extensions) {
         const auto place = rank(extensions, candidate);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "geometry/polygon_triangles.h"
 #include "geometry/statistics.h"
 
 namespace mimik::evaluation {
@@ -88,10 +89,11 @@ SurfaceDistance surface_distance(const Mesh& test, const Mesh& reference) {
                                      reference.vertices_mm.size()));
     SurfaceDistance result;
     result.test_to_reference = distances_to_surface(
-        test.vertices_mm, SurfaceIndex(reference.vertices_mm, geometry::triangulate(reference.faces)));
+        test.vertices_mm,
+        SurfaceIndex(reference.vertices_mm, geometry::triangulate(reference.faces, reference.vertices_mm)));
     if (test.faces.size() > 0)
         result.reference_to_test = distances_to_surface(
-            reference.vertices_mm, SurfaceIndex(test.vertices_mm, geometry::triangulate(test.faces)));
+            reference.vertices_mm, SurfaceIndex(test.vertices_mm, geometry::triangulate(test.faces, test.vertices_mm)));
     return result;
 }
 

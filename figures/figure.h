@@ -91,6 +91,7 @@ struct Figure {
     bool legend = false;        ///< a line that names the marker and arrow sets
     /// Each pixel is the mean of supersampling^2 drawn ones, on top of the renderer's own multisampling; 1 to 4.
     int supersampling = 1;
+    std::vector<std::string> remarks{};  ///< what readers left out or took otherwise than written
 
     void check() const;  ///< throws InputError naming field, panel and value
 };

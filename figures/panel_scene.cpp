@@ -1,9 +1,11 @@
 #include "figures/panel_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
 #include <vtkActor.h>
@@ -25,6 +27,7 @@
 
 #include "base/errors.h"
 #include "figures/offscreen.h"
+#include "geometry/polygon_triangles.h"
 
 namespace mimik::figures {
 namespace {
@@ -176,6 +179,27 @@ vtkSmartPointer<vtkUnsignedCharArray> vertex_colours(const Panel& panel, const s
     return colours;
 }
 
+/// A polygon as one cell, so that its edges are drawn without diagonals; one that is no fan as triangles, since the
+/// renderer would fill its notch. `drawn` are its corners in the renderer's numbers.
+void add_polygon(const Mesh& mesh, std::span<const std::uint32_t> face, std::span<const std::uint32_t> drawn,
+                 vtkCellArray& cells, std::vector<geometry::Triangle>& triangles) {
+    const auto add_cell = [&](std::span<const std::uint32_t> cell_corners) {
+        cells.InsertNextCell(static_cast<int>(cell_corners.size()));
+        for (const auto corner : cell_corners) cells.InsertCellPoint(corner);
+    };
+    if (geometry::is_fan(face, mesh.vertices_mm)) {
+        for (std::size_t k = 2; k < face.size(); ++k) triangles.push_back({face[0], face[k - 1], face[k]});
+        add_cell(drawn);
+        return;
+    }
+    std::vector<Point> polygon;
+    for (const auto v : face) polygon.push_back(mesh.vertices_mm[v]);
+    for (const auto& t : geometry::cut_polygon(polygon)) {
+        triangles.push_back({face[t[0]], face[t[1]], face[t[2]]});
+        add_cell(std::array{drawn[t[0]], drawn[t[1]], drawn[t[2]]});
+    }
+}
+
 vtkSmartPointer<vtkActor> face_actor(const Panel& panel, const std::array<double, 2>& scalar_range) {
     const Mesh& mesh = panel.mesh;
     const bool textured = panel.texture && !panel.scalar;
@@ -185,10 +209,8 @@ vtkSmartPointer<vtkActor> face_actor(const Panel& panel, const std::array<double
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         const auto face = mesh.faces[f];
         if (!whole(mesh, face)) continue;
-        for (std::size_t k = 2; k < face.size(); ++k) triangles.push_back({face[0], face[k - 1], face[k]});
-        surface.polygons->InsertNextCell(static_cast<int>(face.size()));
-        for (std::size_t k = 0; k < face.size(); ++k)
-            surface.polygons->InsertCellPoint(corners.drawn[mesh.faces.first[f] + k]);
+        add_polygon(mesh, face, std::span(corners.drawn).subspan(mesh.faces.first[f], face.size()), *surface.polygons,
+                    triangles);
     }
     const auto normals = geometry::vertex_normals(mesh.vertices_mm, triangles);
     for (const auto v : corners.vertex) {

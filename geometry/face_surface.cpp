@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "geometry/polygon_triangles.h"
 
 namespace mimik::geometry {
 
@@ -26,8 +27,11 @@ FaceSurface face_surface(const Mesh& mesh, Landmarks landmarks) {
             fmt::format("the mesh has {} vertices and no face; a face is animated by its surface, so give a "
                         "mesh with faces",
                         mesh.vertices_mm.size()));
-    FaceSurface surface{
-        mesh.vertices_mm, triangulate(mesh.faces), VertexMask(mesh.vertices_mm.size(), 0), {}, std::move(landmarks)};
+    FaceSurface surface{mesh.vertices_mm,
+                        triangulate(mesh.faces, mesh.vertices_mm),
+                        VertexMask(mesh.vertices_mm.size(), 0),
+                        {},
+                        std::move(landmarks)};
     for (const auto& triangle : surface.triangles)
         for (const auto v : triangle) {
             if (!surface.vertices_mm[v].allFinite())

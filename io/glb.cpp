@@ -13,6 +13,7 @@
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "geometry/polygon_triangles.h"
 #include "io/formats/bytes.h"
 
 namespace mimik::io {
@@ -415,7 +416,7 @@ GlbMesh glb_mesh(const Mesh& mesh, std::vector<std::uint32_t>* source_vertex) {
     if (mesh.faces.texture_corners.empty()) {
         out.positions_mm = mesh.vertices_mm;
         out.texture_coordinates = mesh.texture_coordinates;
-        out.triangles = geometry::triangulate(mesh.faces);
+        out.triangles = geometry::triangulate(mesh.faces, mesh.vertices_mm);
         for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v) sources.push_back(v);
     } else {
         Faces split;
@@ -435,10 +436,11 @@ GlbMesh glb_mesh(const Mesh& mesh, std::vector<std::uint32_t>* source_vertex) {
             }
             split.add(face);
         }
-        out.triangles = geometry::triangulate(split);
+        out.triangles = geometry::triangulate(split, out.positions_mm);
     }
     // Normals of the surface as it was before the seams were cut.
-    out.normals = gathered(geometry::vertex_normals(mesh.vertices_mm, geometry::triangulate(mesh.faces)), sources);
+    out.normals = gathered(
+        geometry::vertex_normals(mesh.vertices_mm, geometry::triangulate(mesh.faces, mesh.vertices_mm)), sources);
     out.colours = gathered(mesh.colours, sources);
     out.attributes = gathered(mesh.attributes, sources);
     if (source_vertex) *source_vertex = std::move(sources);

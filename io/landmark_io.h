@@ -1,17 +1,20 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/text.h"
 #include "geometry/landmarks.h"
+#include "io/body_frame.h"
 #include "io/mesh_io.h"
 
 namespace mimik::io {
 
-enum class LandmarkFormat { csv, pp, fcsv, mrk_json, lm3 };
+enum class LandmarkFormat { csv, pp, fcsv, mrk_json, lm3, ljson, lan };
 /// By extension, case ignored. @throws InputError listing the extensions there are.
 [[nodiscard]] LandmarkFormat landmark_format(const std::filesystem::path& file);
 
@@ -24,15 +27,19 @@ inline constexpr std::size_t most_landmarks = 10000;
 [[nodiscard]] std::size_t read_landmark_count(base::LineReader& lines);
 
 /// Landmarks as a file has them: labels untouched (name == original_label), file's own frame.
-///   .csv       header with name,x,y,z (any order, further columns ignored)
+///   .csv .tsv  header with name,x,y,z (any order, further columns ignored), or Slicer's label,l,p,s or label,r,a,s;
+///              as spreadsheets save tables (base/csv.h)
 ///   .pp        MeshLab PickedPoints; active="0" means not set and is left out
-///   .fcsv      Slicer, # CoordinateSystem = LPS/RAS/0/1
+///   .fcsv      Slicer 3 to 5, # CoordinateSystem = LPS/RAS/0/1 or nothing
 ///   .mrk.json  Slicer, positionStatus "defined" only; coordinateUnits, where given, goes before `unit`
 ///              unless only `unit` lies on the mesh: Slicer writes mm whatever the mesh was in
 ///   .lm3       Bosphorus (raw labels; database/ renames them to the subject's side)
+///   .ljson     menpo, versions 1 to 3; points of nulls are left out
+///   .lan       single-precision numbers without names: called 1, 2, ...
 /// Slicer files do not say in which of LPS and RAS the mesh is: give the mesh's points (NaN ones are passed over) and
 /// the frame that lies on them is taken: mean distance to the nearest point at most 5 % of the mesh's diagonal, and
-/// less than half that of every other. Without mesh points coordinates are returned as written.
+/// less than half that of every other. Without mesh points the marks come in LPS: those of a file that says RAS have x
+/// and y negated.
 /// @throws InputError naming file, line, value and mend; also where neither LPS nor RAS lies on the mesh.
 [[nodiscard]] geometry::Landmarks read_landmarks(const std::filesystem::path& file,
                                                  std::span<const geometry::Point> mesh_points_mm = {},
@@ -42,6 +49,15 @@ inline constexpr std::size_t most_landmarks = 10000;
                                                    const std::string& name,
                                                    std::span<const geometry::Point> mesh_points_mm = {},
                                                    LengthUnit unit = LengthUnit::millimetre);
+
+/// What a landmark file says, coordinates as written but in millimetres where it states another unit.
+struct LandmarkFile {
+    geometry::Landmarks landmarks;
+    std::optional<BodyFrame> frame = {};    ///< as the file states it
+    std::vector<std::string> remarks = {};  ///< what was left out, with the file's name
+};
+/// @throws InputError as read_landmarks.
+[[nodiscard]] LandmarkFile read_landmark_file(const std::filesystem::path& file);
 
 /// .csv (17 digits), .pp, .fcsv, .mrk.json, .lm3 by extension. Slicer files say LPS, the frame in which Slicer takes a
 /// PLY, OBJ or STL mesh to be unless told otherwise. Every number reads back as the same double.

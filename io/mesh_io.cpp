@@ -1,13 +1,17 @@
 #include "io/mesh_io.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <locale>
 #include <new>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/errors.h"
 #include "base/file.h"
@@ -41,34 +45,39 @@ void check_vertices(const MeshFile& file, MeshFormat format, const std::string& 
                 fmt::format("{}: vertex {} (counted from 0) is ({}, {}, {}), not a finite position; delete it or "
                             "export the mesh again",
                             name, i, vertices[i].x(), vertices[i].y(), vertices[i].z()));
-    const auto& texture = file.mesh.texture_coordinates;
-    for (std::size_t i = 0; i < texture.size(); ++i)
-        if (!texture[i].allFinite())
-            throw InputError(
-                fmt::format("{}: texture position {} (counted from 0) is ({}, {}), not finite; export the mesh "
-                            "again",
-                            name, i, texture[i].x(), texture[i].y()));
 }
 
-/// Leaves out the points that a lattice marks as not measured. Such a file has no faces.
-void drop_unmeasured(Mesh& mesh) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
-        if (!mesh.vertices_mm[i].allFinite()) continue;
-        mesh.vertices_mm[kept] = mesh.vertices_mm[i];
-        if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates[kept] = mesh.texture_coordinates[i];
-        if (!mesh.colours.empty()) mesh.colours[kept] = mesh.colours[i];
-        for (auto& attribute : mesh.attributes) {
-            const auto n = static_cast<std::size_t>(attribute.components);
-            for (std::size_t c = 0; c < n; ++c) attribute.values[kept * n + c] = attribute.values[i * n + c];
-        }
-        ++kept;
+/// The surface does not need its texture: a position that is no number becomes (0, 0).
+void mend_texture(MeshFile& file, const std::string& name) {
+    std::size_t mended = 0;
+    for (std::size_t i = 0; i < file.mesh.texture_coordinates.size(); ++i) {
+        auto& position = file.mesh.texture_coordinates[i];
+        // A point of a lattice that was not measured has no texture either.
+        const bool unmeasured = file.rows > 0 && !file.mesh.vertices_mm[i].allFinite();
+        if (position.allFinite() || unmeasured) continue;
+        position.setZero();
+        ++mended;
     }
-    mesh.vertices_mm.resize(kept);
-    if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates.resize(kept);
-    if (!mesh.colours.empty()) mesh.colours.resize(kept);
-    for (auto& attribute : mesh.attributes)
-        attribute.values.resize(kept * static_cast<std::size_t>(attribute.components));
+    if (mended > 0)
+        file.remarks.push_back(
+            fmt::format("{}: {} texture positions are not finite; they become (0, 0)", name, mended));
+}
+
+/// Attributes have names, each another.
+void name_attributes(MeshFile& file, const std::string& name) {
+    std::set<std::string> taken;
+    for (auto& attribute : file.mesh.attributes) {
+        const auto stem = attribute.name.empty() ? std::string("unnamed") : attribute.name;
+        auto unique = stem;
+        for (int number = 2; !taken.insert(unique).second; ++number) unique = fmt::format("{}_{}", stem, number);
+        if (unique == attribute.name) continue;
+        file.remarks.push_back(
+            attribute.name.empty()
+                ? fmt::format("{}: a value per vertex has no name; it is called {}", name, base::in_quotes(unique))
+                : fmt::format("{}: two values per vertex are called {}; one becomes {}", name,
+                              base::in_quotes(attribute.name), base::in_quotes(unique)));
+        attribute.name = std::move(unique);
+    }
 }
 
 void check_parts_fit(const Mesh& mesh, const std::string& name) {
@@ -193,18 +202,52 @@ MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, con
     if (parts == MeshParts::without_attributes) file.mesh.attributes.clear();
     scale_lengths(file, unit);
     check_vertices(file, format, name);
+    mend_texture(file, name);
+    name_attributes(file, name);
     return file;
+}
+
+std::size_t drop_unmeasured(MeshFile& file) {
+    auto& mesh = file.mesh;
+    const auto all = mesh.vertices_mm.size();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+        if (!mesh.vertices_mm[i].allFinite()) continue;
+        mesh.vertices_mm[kept] = mesh.vertices_mm[i];
+        if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates[kept] = mesh.texture_coordinates[i];
+        if (!mesh.colours.empty()) mesh.colours[kept] = mesh.colours[i];
+        for (auto& attribute : mesh.attributes) {
+            const auto n = static_cast<std::size_t>(attribute.components);
+            for (std::size_t c = 0; c < n; ++c) attribute.values[kept * n + c] = attribute.values[i * n + c];
+        }
+        ++kept;
+    }
+    mesh.vertices_mm.resize(kept);
+    if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates.resize(kept);
+    if (!mesh.colours.empty()) mesh.colours.resize(kept);
+    for (auto& attribute : mesh.attributes)
+        attribute.values.resize(kept * static_cast<std::size_t>(attribute.components));
+    file.rows = file.cols = 0;
+    return all - kept;
+}
+
+void bring_to_lps(MeshFile& file, const std::string& name) {
+    if (file.frame != BodyFrame::ras) return;
+    negate_x_and_y(file.mesh.vertices_mm);
+    file.frame = BodyFrame::lps;
+    file.remarks.push_back(fmt::format("{}: says that it is in RAS; x and y are negated, to LPS", name));
 }
 
 Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit) {
     const auto format = mesh_format(file);
-    auto mesh = decode_mesh(format, base::read_bytes(file), file.string(), unit).mesh;
+    auto content = decode_mesh(format, base::read_bytes(file), file.string(), unit);
     if (format == MeshFormat::pcd) {
-        drop_unmeasured(mesh);
-        if (mesh.vertices_mm.empty())
+        drop_unmeasured(content);
+        if (content.mesh.vertices_mm.empty())
             throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", file.string()));
     }
-    return mesh;
+    bring_to_lps(content, file.string());
+    return std::move(content.mesh);
 }
 
 MeshFile read_mesh_file(const std::filesystem::path& file, LengthUnit unit, MeshParts parts, BadTexture bad_texture) {
@@ -233,6 +276,40 @@ MeshWriteOptions checked_options(const Mesh& mesh, const MeshWriteOptions& optio
     return checked;
 }
 
+/// What the format has no place for.
+std::vector<std::string> left_out_by(MeshFormat format, const Mesh& mesh, const std::string& name) {
+    std::vector<std::string> parts;
+    const bool stl = format == MeshFormat::stl;
+    if (stl && !mesh.colours.empty()) parts.emplace_back("colours");
+    if (stl && !mesh.texture_coordinates.empty()) parts.emplace_back("texture positions");
+    if (stl || format == MeshFormat::obj)
+        for (const auto& attribute : mesh.attributes) parts.push_back(base::in_quotes(attribute.name));
+    std::vector<std::string> remarks;
+    if (!parts.empty())
+        remarks.push_back(fmt::format("{}: the format has no place for {}; left out (.ply and .vtp keep them)", name,
+                                      fmt::join(parts, ", ")));
+    const bool ply = format == MeshFormat::ply;
+    if (ply || format == MeshFormat::vtp) {
+        const auto names = ply ? formats::ply_attribute_names(mesh) : formats::vtp_attribute_names(mesh);
+        for (std::size_t k = 0; k < names.size(); ++k)
+            if (names[k] != mesh.attributes[k].name)
+                remarks.push_back(fmt::format("{}: {} is called {}, since the format cannot hold that name", name,
+                                              base::in_quotes(mesh.attributes[k].name), base::in_quotes(names[k])));
+    }
+    if (stl) {
+        double largest = 0;
+        for (const auto& p : mesh.vertices_mm) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+        const auto single = static_cast<float>(largest);
+        const double step = static_cast<double>(std::nextafter(single, std::numeric_limits<float>::max())) - single;
+        if (constexpr double told_mm = 1e-3; step / 2 > told_mm)
+            remarks.push_back(
+                fmt::format("{}: coordinates reach {:.0f}, where the 32-bit numbers of STL lose up to {:.2g} mm; write "
+                            ".ply, or move the mesh to the origin first",
+                            name, largest, step / 2));
+    }
+    return remarks;
+}
+
 }  // namespace
 
 std::string encode_ply(const Mesh& mesh, const std::string& name, const MeshWriteOptions& options) {
@@ -243,14 +320,16 @@ std::string encode_ply(const Mesh& mesh, const std::string& name, const MeshWrit
     return std::move(out).str();
 }
 
-void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const MeshWriteOptions& options) {
+std::vector<std::string> write_mesh(const std::filesystem::path& file, const Mesh& mesh,
+                                    const MeshWriteOptions& options) {
     const auto format = mesh_format(file);
     check_parts_fit(mesh, file.string());
     const auto checked = checked_options(mesh, options, file.string());
+    std::vector<std::string> remarks = left_out_by(format, mesh, file.string());
     switch (format) {
         case MeshFormat::ply:
             base::write_atomically(file, [&](std::ostream& out) { formats::encode_ply(out, mesh, checked); });
-            return;
+            return remarks;
         case MeshFormat::obj: {
             std::string material;
             if (!checked.texture_files.empty()) {
@@ -259,15 +338,16 @@ void write_mesh(const std::filesystem::path& file, const Mesh& mesh, const MeshW
                 base::write_atomically(material_file.replace_filename(material), formats::encode_materials(checked));
             }
             base::write_atomically(file, [&](std::ostream& out) { formats::encode_obj(out, mesh, checked, material); });
-            return;
+            return remarks;
         }
         case MeshFormat::stl:
             base::write_atomically(file,
                                    [&](std::ostream& out) { formats::encode_stl(out, mesh, checked, file.string()); });
-            return;
+            return remarks;
         case MeshFormat::vtp:
-            base::write_atomically(file, [&](std::ostream& out) { formats::encode_vtp(out, mesh, checked.made_by); });
-            return;
+            base::write_atomically(
+                file, [&](std::ostream& out) { formats::encode_vtp(out, mesh, checked.made_by, checked.frame); });
+            return remarks;
         case MeshFormat::pcd:
             break;
     }

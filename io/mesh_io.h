@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "geometry/mesh.h"
+#include "io/body_frame.h"
 
 namespace mimik::io {
 
@@ -26,7 +28,8 @@ enum class MeshFormat { ply, obj, stl, pcd, vtp };
 /// (ascii, binary, binary_compressed), VTP (inline or appended arrays, with or without zlib). By extension, case
 /// ignored; header and sizes are checked against the length of the file before anything is allocated. Normals are not
 /// read: they follow from the faces. Further scalar values per vertex become attributes. Points that a PCD marks as not
-/// measured (NaN) are left out; in every other format a coordinate that is not finite is an error.
+/// measured (NaN) are left out; in every other format a coordinate that is not finite is an error. A mesh that says
+/// that it is in RAS comes in LPS, the frame of those that say nothing.
 /// @throws InputError naming file, line or byte, field, value and mend.
 [[nodiscard]] geometry::Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre);
 
@@ -50,6 +53,7 @@ struct MeshFile {
     std::vector<std::string> remarks = {};  ///< what was left out or taken otherwise than written, with the file
     int rows = 0;  ///< of a PCD with HEIGHT > 1, in the file's order; its NaN points are then still in `mesh`
     int cols = 0;
+    std::optional<BodyFrame> frame = {};  ///< where the file states it ("SPACE=RAS"); the coordinates are as written
 };
 /// read_mesh with the names of the texture images (PLY: comments TextureFile, faces' `texnumber`; OBJ: map_Kd of the
 /// materials in use) and a PCD's lattice. A name from another machine is looked for beside the mesh (find_beside); an
@@ -64,6 +68,12 @@ struct MeshFile {
 [[nodiscard]] MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name,
                                    LengthUnit unit = LengthUnit::millimetre, MeshParts parts = MeshParts::all);
 
+/// Leaves out the points that a lattice marks as not measured (NaN); such a file has no faces. @return their number.
+std::size_t drop_unmeasured(MeshFile& file);
+
+/// Brings a mesh that says that it is in RAS into LPS, with a remark that begins with `name`.
+void bring_to_lps(MeshFile& file, const std::string& name);
+
 /// What made a mesh: names and values, such as "source" and "bs003".
 using MadeBy = std::vector<std::pair<std::string, std::string>>;
 
@@ -73,13 +83,17 @@ struct MeshWriteOptions {
     std::vector<std::string> texture_files = {};    ///< several images in place of texture_file
     std::vector<std::uint32_t> face_textures = {};  ///< as in MeshFile
     MadeBy made_by = {};                            ///< kept as comments (PLY, OBJ) or field data (VTP)
+    std::optional<BodyFrame> frame = {};            ///< stated as Slicer does, "SPACE=RAS"; nothing: not stated
 };
 
 /// PLY (double precision, attributes as extra properties), OBJ (17 digits), STL (single precision, triangles), VTP
 /// (attributes as point data), by extension. Faces, texture coordinates and colours are kept where the format can hold
 /// them; docs/formats.md says what each leaves out. OBJ with a texture also writes the .mtl beside it.
+/// An attribute whose name the format cannot hold (blanks in PLY, names of coordinates) is renamed.
+/// @return what was left out or renamed, with the file's name.
 /// @throws InputError if the parts of the mesh do not fit together, or the file cannot be written.
-void write_mesh(const std::filesystem::path& file, const geometry::Mesh& mesh, const MeshWriteOptions& options = {});
+std::vector<std::string> write_mesh(const std::filesystem::path& file, const geometry::Mesh& mesh,
+                                    const MeshWriteOptions& options = {});
 
 /// The bytes of the PLY that write_mesh writes. @throws InputError as write_mesh; `name` stands for the file.
 [[nodiscard]] std::string encode_ply(const geometry::Mesh& mesh, const std::string& name,

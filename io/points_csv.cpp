@@ -11,13 +11,25 @@
 
 namespace mimik::io {
 
+PointColumns point_columns(const base::CsvReader& rows) {
+    if (!rows.find_column("x") && rows.find_column("s")) {
+        if (rows.find_column("r") && rows.find_column("a"))
+            return {rows.column("r"), rows.column("a"), rows.column("s"), BodyFrame::ras};
+        if (rows.find_column("l") && rows.find_column("p"))
+            return {rows.column("l"), rows.column("p"), rows.column("s"), BodyFrame::lps};
+    }
+    return {rows.column("x"), rows.column("y"), rows.column("z"), std::nullopt};
+}
+
 PointTable decode_points_csv(std::string_view text, const std::string& name) {
     base::CsvReader rows(text, name);
-    const auto x = rows.column("x"), y = rows.column("y"), z = rows.column("z");
-    const auto label = rows.find_column("name");
+    const auto columns = point_columns(rows);
+    auto label = rows.find_column("name");
+    if (!label) label = rows.find_column("label");
     PointTable table;
+    table.frame = columns.frame;
     while (rows.next()) {
-        table.points.emplace_back(rows.number(x), rows.number(y), rows.number(z));
+        table.points.emplace_back(rows.number(columns.x), rows.number(columns.y), rows.number(columns.z));
         if (label) table.names.push_back(rows.field(*label));
     }
     return table;
@@ -32,7 +44,8 @@ std::string encode_points_csv(const PointTable& table) {
     if (named && table.names.size() != table.points.size())
         throw InputError(fmt::format("{} names for {} points; every point needs one, or none has", table.names.size(),
                                      table.points.size()));
-    std::string text = named ? "name,x,y,z\n" : "x,y,z\n";
+    const char* coordinates = !table.frame ? "x,y,z\n" : *table.frame == BodyFrame::ras ? "r,a,s\n" : "l,p,s\n";
+    std::string text = fmt::format("{}{}", !named ? "" : table.frame ? "label," : "name,", coordinates);
     for (std::size_t i = 0; i < table.points.size(); ++i) {
         const auto& p = table.points[i];
         if (named) text += base::csv_field(table.names[i]) + ',';

@@ -116,6 +116,7 @@ void take_texture(MeshFile& file, RangeScan& scan) {
 
 RangeScan to_range_scan(MeshFile file, const std::string& name) {
     RangeScan scan;
+    bring_to_lps(file, name);
     take_texture(file, scan);
     file.mesh.faces.texture_corners.clear();
     scan.rows = file.rows;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,7 +32,10 @@ namespace {
 
 using CheckTexture = std::function<void(const std::filesystem::path&)>;
 
-bool is_csv(const std::filesystem::path& file) { return base::equal_ignoring_case(file.extension().string(), ".csv"); }
+bool is_csv(const std::filesystem::path& file) {
+    const auto extension = base::lower_case(file.extension().string());
+    return extension == ".csv" || extension == ".tsv";
+}
 
 /// What the input file holds: a mesh (for CSV a bare cloud), and names if it had them.
 struct WarpInput {
@@ -43,10 +48,20 @@ bool takes_texture(const std::filesystem::path& output) {
 }
 
 WarpInput read_input(const std::filesystem::path& input) {
-    if (!is_csv(input)) return {read_mesh_file(input, LengthUnit::millimetre, MeshParts::all, BadTexture::report), {}};
+    if (!is_csv(input)) {
+        WarpInput mesh = {read_mesh_file(input, LengthUnit::millimetre, MeshParts::all, BadTexture::report), {}};
+        if (mesh_format(input) != MeshFormat::pcd) return mesh;
+        if (const auto dropped = drop_unmeasured(mesh.file); dropped > 0)
+            mesh.file.remarks.push_back(
+                fmt::format("{}: {} points that were not measured (NaN) are left out", input.string(), dropped));
+        if (mesh.file.mesh.vertices_mm.empty())
+            throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", input.string()));
+        return mesh;
+    }
     auto table = read_points_csv(input);
     WarpInput result;
     result.file.mesh.vertices_mm = std::move(table.points);
+    result.file.frame = table.frame;
     result.names = std::move(table.names);
     return result;
 }
@@ -113,14 +128,16 @@ void write_output(const std::filesystem::path& output, WarpInput warp, const std
                             "keep it",
                             output.string()));
         }
-        write_mesh(output, mesh, options);
+        options.frame = warp.file.frame;
+        auto written = write_mesh(output, mesh, options);
+        std::move(written.begin(), written.end(), std::back_inserter(remarks));
         return;
     }
     if (warp.names.empty()) {
         warp.names.reserve(mesh.vertices_mm.size());
         for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) warp.names.push_back(std::to_string(i));
     }
-    write_points_csv(output, {std::move(warp.names), std::move(mesh.vertices_mm)});
+    write_points_csv(output, {std::move(warp.names), std::move(mesh.vertices_mm), warp.file.frame});
 }
 
 /// Found out before the work, not after it.
@@ -132,42 +149,148 @@ void check_output_format(const std::filesystem::path& output) {
                                  output.string(), base::in_quotes(extension)));
 }
 
-}  // namespace
+std::vector<Point> positions(const Landmarks& landmarks) {
+    std::vector<Point> points;
+    for (const auto& mark : landmarks.all()) points.push_back(mark.position_mm);
+    return points;
+}
 
-WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::path& to,
-                     const std::filesystem::path& input, const std::filesystem::path& output,
-                     const geometry::ThinPlateSplineOptions& options, const CheckTexture& check_texture,
-                     const MadeBy& made_by) {
-    check_output_format(output);
-    auto warp = read_input(input);
-    const auto& points = warp.file.mesh.vertices_mm;
-    const auto source = read_landmarks(from), target = read_landmarks(to);
-    const geometry::LandmarkPairs pairs(source, target);
-    pairs.require_partners();
-    const auto spline = pairs.fit(options);
+std::vector<Point> positions_in_lps(const LandmarkFile& marks) {
+    auto points = positions(marks.landmarks);
+    if (marks.frame == BodyFrame::ras) negate_x_and_y(points);
+    return points;
+}
 
-    WarpReport report;
-    report.landmarks = source.size();
-    report.points = points.size();
-    report.bending_energy = spline.bending_energy();
-    for (const auto& mark : source.all())
-        report.largest_landmark_residual = std::max(report.largest_landmark_residual,
-                                                    (spline(mark.position_mm) - target.position_mm(mark.name)).norm());
-    const auto before = points;
-    spline.apply(warp.file.mesh.vertices_mm, warp.file.mesh.vertices_mm);
+/// The marks of both files, brought into the frame of the input.
+class WarpMarks {
+public:
+    WarpMarks(const std::filesystem::path& from, const std::filesystem::path& to)
+        : from_name_(from.string()),
+          to_name_(to.string()),
+          from_(read_landmark_file(from)),
+          to_(read_landmark_file(to)) {}
+
+    void bring_into_frame_of(const MeshFile& input, const std::string& name, const WarpFileOptions& more,
+                             std::vector<std::string>& remarks) {
+        for (const auto* marks : {&from_, &to_})
+            remarks.insert(remarks.end(), marks->remarks.begin(), marks->remarks.end());
+        if (more.input_frame && input.frame && more.input_frame != input.frame)
+            throw InputError(fmt::format("{}: says that it is in {}, not {}; leave the frame out", name,
+                                         to_string(*input.frame), to_string(*more.input_frame)));
+        if (!from_.frame && !to_.frame) return;
+        auto frame = input.frame ? input.frame : more.input_frame;
+        std::string why = fmt::format("{} is in it", name);
+        if (!frame) {
+            frame = judged(input.mesh.vertices_mm);
+            why = fmt::format("{} states no frame, and they lie on it so", name);
+        }
+        if (!frame) {
+            frame = BodyFrame::lps;
+            why = fmt::format("{} states no frame and is taken to be in LPS, as Slicer does", name);
+        }
+        bring(from_, from_name_, *frame, why, remarks);
+        bring(to_, to_name_, *frame, why, remarks);
+    }
+
+    void pair_by_order(std::vector<std::string>& remarks) {
+        const auto& from = from_.landmarks;
+        const auto& to = to_.landmarks;
+        if (from.size() != to.size() || from.empty())
+            throw InputError(
+                fmt::format("{} has {} landmarks and {} has {}; to be paired by their order they need as "
+                            "many",
+                            from_name_, from.size(), to_name_, to.size()));
+        remarks.push_back(fmt::format("landmarks are paired by their order, {} of {} with {} of {} and so on",
+                                      base::in_quotes(from.all()[0].name), from_name_,
+                                      base::in_quotes(to.all()[0].name), to_name_));
+        std::vector<geometry::Landmark> renamed(to.all().begin(), to.all().end());
+        for (std::size_t k = 0; k < renamed.size(); ++k) renamed[k].name = from.all()[k].name;
+        to_.landmarks = Landmarks(std::move(renamed));
+    }
+
+    [[nodiscard]] ThinPlateSpline fit(const ThinPlateSplineOptions& options) const {
+        try {
+            const geometry::LandmarkPairs pairs(from_.landmarks, to_.landmarks);
+            try {
+                pairs.require_partners();
+            } catch (const InputError& e) {
+                const bool as_many = from_.landmarks.size() == to_.landmarks.size();
+                throw InputError(
+                    fmt::format("{}{}", e.what(), as_many ? ", or pair them by their order (--pair-by order)" : ""));
+            }
+            return pairs.fit(options);
+        } catch (const InputError& e) {
+            throw InputError(fmt::format("{}, {}: {}", from_name_, to_name_, e.what()));
+        } catch (const NumericalError& e) {
+            throw NumericalError(fmt::format("{}, {}: {}", from_name_, to_name_, e.what()));
+        }
+    }
+
+    [[nodiscard]] const Landmarks& from() const { return from_.landmarks; }
+    [[nodiscard]] const Landmarks& to() const { return to_.landmarks; }
+
+private:
+    [[nodiscard]] std::optional<BodyFrame> judged(const std::vector<Point>& mesh_points) const {
+        return from_.frame ? frame_judged_by(positions_in_lps(from_), mesh_points)
+                           : frame_judged_by(positions_in_lps(to_), positions(from_.landmarks));
+    }
+    static void bring(LandmarkFile& marks, const std::string& name, BodyFrame frame, const std::string& why,
+                      std::vector<std::string>& remarks) {
+        if (!marks.frame || *marks.frame == frame) return;
+        std::vector<geometry::Landmark> negated(marks.landmarks.all().begin(), marks.landmarks.all().end());
+        for (auto& mark : negated) negate_x_and_y({&mark.position_mm, 1});
+        marks.landmarks = Landmarks(std::move(negated));
+        remarks.push_back(fmt::format("{}: says that it is in {}; x and y are negated, to {}: {}", name,
+                                      to_string(*marks.frame), to_string(frame), why));
+        marks.frame = frame;
+    }
+
+    std::string from_name_, to_name_;
+    LandmarkFile from_, to_;
+};
+
+/// @throws NumericalError naming the first point whose place is no number.
+double largest_displacement(const std::vector<Point>& before, const WarpInput& warp, const std::string& input) {
+    double largest = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const double moved = (warp.file.mesh.vertices_mm[i] - before[i]).norm();
         if (!std::isfinite(moved))
             throw NumericalError(
                 fmt::format("{}: point {} at ({}, {}, {}) is so far from the landmarks that its place has no number; "
                             "give it in the unit and frame of the landmarks",
-                            input.string(), warp.names.empty() ? std::to_string(i) : base::in_quotes(warp.names[i]),
+                            input, warp.names.empty() ? std::to_string(i) : base::in_quotes(warp.names[i]),
                             before[i].x(), before[i].y(), before[i].z()));
-        report.largest_displacement = std::max(report.largest_displacement, moved);
+        largest = std::max(largest, moved);
     }
+    return largest;
+}
+
+}  // namespace
+
+WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::path& to,
+                     const std::filesystem::path& input, const std::filesystem::path& output,
+                     const geometry::ThinPlateSplineOptions& options, const CheckTexture& check_texture,
+                     const WarpFileOptions& more) {
+    check_output_format(output);
+    auto warp = read_input(input);
+    WarpReport report;
     report.remarks = std::move(warp.file.remarks);
+    WarpMarks marks(from, to);
+    marks.bring_into_frame_of(warp.file, input.string(), more, report.remarks);
+    if (more.pair_by == PairBy::order) marks.pair_by_order(report.remarks);
+    const auto spline = marks.fit(options);
+
+    report.landmarks = marks.from().size();
+    report.points = warp.file.mesh.vertices_mm.size();
+    report.bending_energy = spline.bending_energy();
+    for (const auto& mark : marks.from().all())
+        report.largest_landmark_residual = std::max(
+            report.largest_landmark_residual, (spline(mark.position_mm) - marks.to().position_mm(mark.name)).norm());
+    const auto before = warp.file.mesh.vertices_mm;
+    spline.apply(warp.file.mesh.vertices_mm, warp.file.mesh.vertices_mm);
+    report.largest_displacement = largest_displacement(before, warp, input.string());
     MeshWriteOptions write_options;
-    write_options.made_by = made_by;
+    write_options.made_by = more.made_by;
     write_output(output, std::move(warp), input, check_texture, std::move(write_options), report.remarks);
     return report;
 }

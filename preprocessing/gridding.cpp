@@ -15,6 +15,7 @@
 #include "base/errors.h"
 #include "geometry/delaunay.h"
 #include "geometry/disjoint_sets.h"
+#include "geometry/polygon_triangles.h"
 #include "geometry/statistics.h"
 #include "geometry/topology.h"
 
@@ -274,7 +275,7 @@ struct FacingMesh {
 FacingMesh facing_triangles(const RangeScan& scan, const std::vector<std::uint8_t>& valid) {
     const auto& p = scan.points_mm;
     FacingMesh mesh;
-    auto triangles = geometry::triangulate(scan.faces);
+    auto triangles = geometry::triangulate(scan.faces, p);
     std::erase_if(triangles, [&](const Triangle& t) { return !valid[t[0]] || !valid[t[1]] || !valid[t[2]]; });
     for (auto t : triangles) {
         const double area2 = cross(p[t[0]], p[t[1]], p[t[2]]);

@@ -245,7 +245,7 @@ io::Image picture_of(const fs::path& file, const io::MeshFile& face, geometry::M
     return io::texture_atlas(mesh, images, face.face_textures);
 }
 
-Panel load_panel(const PanelDescription& description) {
+Panel load_panel(const PanelDescription& description, std::vector<std::string>& remarks) {
     Panel panel;
     panel.caption = description.caption;
     panel.view = description.view;
@@ -257,6 +257,8 @@ Panel load_panel(const PanelDescription& description) {
     for (const auto* file : {&description.texture, &description.landmarks, &description.controls})
         if (!file->empty()) database::refuse_hidden_file(*file);
     auto face = read_face(description.mesh, description.unit);
+    io::bring_to_lps(face, description.mesh.string());
+    remarks.insert(remarks.end(), face.remarks.begin(), face.remarks.end());
     panel.mesh = std::move(face.mesh);
     if (panel.scalar) {
         try {
@@ -442,7 +444,7 @@ FigureDescription read_figure_description(const fs::path& file) {
 Figure load_figure(const FigureDescription& description) {
     Figure figure = description.page;
     figure.panels.clear();
-    for (const auto& panel : description.panels) figure.panels.push_back(load_panel(panel));
+    for (const auto& panel : description.panels) figure.panels.push_back(load_panel(panel, figure.remarks));
     return figure;
 }
 

@@ -86,7 +86,16 @@ inline void load_column(Scalar type, bool swap, const std::uint8_t* at, std::siz
     return text;
 }
 
-/// A colour channel as files give it: bytes, or reals in [0, 1]. Out of range values are clamped, NaN is black.
+/// What makes bytes of colour channels, by the largest of them: reals up to 1 (or bytes, or numbers of 16 bits) are
+/// what they look like; `whole` numbers up to 255 are bytes.
+[[nodiscard]] inline double colour_scale(double largest, bool whole) {
+    return largest <= 1.0 && !whole ? 255.0
+           : largest <= 255.0       ? 1.0
+           : largest <= 65535.0     ? 1.0 / 257.0
+                                    : 255.0 / largest;
+}
+
+/// A colour channel as files give it, times its scale. Out of range values are clamped, NaN is black.
 [[nodiscard]] inline std::uint8_t colour_byte(double value, double scale) {
     const double scaled = value * scale + 0.5;
     return scaled >= 255.0 ? std::uint8_t{255} : scaled >= 0.0 ? static_cast<std::uint8_t>(scaled) : std::uint8_t{0};

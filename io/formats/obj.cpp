@@ -1,6 +1,7 @@
 #include "io/formats/obj.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -27,6 +28,7 @@ constexpr std::size_t most_materials = 10'000, most_material_files = 64;
 std::string numbered_material(std::size_t texture) {
     return texture == 0 ? std::string(material_name) : fmt::format("{}_{}", material_name, texture + 1);
 }
+constexpr std::array<double, 3> no_colour = {-1, -1, -1};
 
 class ObjReader {
 public:
@@ -35,6 +37,7 @@ public:
     MeshFile read() {
         while (next_statement()) {
             const auto keyword = base::next_word(rest_);
+            if (keyword.starts_with('#') && !file_.frame) file_.frame = frame_in_comment(lines_.line());
             if (keyword == "v")
                 read_vertex();
             else if (keyword == "vt")
@@ -49,6 +52,7 @@ public:
         finish_colours();
         finish_texture();
         if (file_.texture_files.empty()) file_.face_textures.clear();
+        remark(small_faces_, "faces have fewer than 3 corners; they are left out");
         return std::move(file_);
     }
 
@@ -68,6 +72,18 @@ private:
         return true;
     }
 
+    void remark(std::size_t count, const char* what) {
+        if (count > 0) file_.remarks.push_back(fmt::format("{}: {} {}", lines_.file_name(), count, what));
+    }
+
+    /// Of a colour or texture position, which the surface does not need: NaN where it is written so.
+    double number_or_nan(std::string_view word, std::string_view what) {
+        const auto value = base::parse_double_or_nan(word);
+        if (!value)
+            lines_.fail(fmt::format("{} is {}, not a number", what, word.empty() ? "missing" : base::in_quotes(word)));
+        return *value;
+    }
+
     double number(std::string_view word, std::string_view what) {
         const auto value = base::parse_double(word);
         if (!value || !std::isfinite(*value))
@@ -84,7 +100,7 @@ private:
             if (count == values.size()) lines_.fail("a vertex has more than 7 numbers (x y z w r g b)");
             constexpr std::array<std::string_view, 7> names = {"x",          "y",          "z",         "4th number",
                                                                "5th number", "6th number", "7th number"};
-            values[count] = number(word, names[count]);
+            values[count] = count < 3 ? number(word, names[count]) : number_or_nan(word, names[count]);
             ++count;
         }
         if (count < 3 || count == 5)
@@ -92,18 +108,15 @@ private:
         file_.mesh.vertices_mm.emplace_back(values[0], values[1], values[2]);
         if (count >= 6) {
             const auto first = count == 6 ? 3U : 4U;
-            if (colours_.size() + 1 != file_.mesh.vertices_mm.size())
-                lines_.fail("this vertex has a colour and an earlier one has none; give all of them one, or none");
+            colours_.resize(file_.mesh.vertices_mm.size() - 1, no_colour);
             colours_.push_back({values[first], values[first + 1], values[first + 2]});
-        } else if (!colours_.empty()) {
-            lines_.fail("this vertex has no colour and the earlier ones have; give all of them one, or none");
         }
     }
 
     void read_texture_coordinate() {
-        const double u = number(base::next_word(rest_), "texture u");
+        const double u = number_or_nan(base::next_word(rest_), "texture u");
         const auto word = base::next_word(rest_);
-        file_.mesh.texture_coordinates.emplace_back(u, word.empty() ? 0.0 : number(word, "texture v"));
+        file_.mesh.texture_coordinates.emplace_back(u, word.empty() ? 0.0 : number_or_nan(word, "texture v"));
     }
 
     std::uint32_t index(std::string_view word, std::size_t count, std::string_view what) {
@@ -165,19 +178,31 @@ private:
             faces.texture_corners.push_back(texture);
             ++corners;
         }
-        if (corners < 3) lines_.fail(fmt::format("a face has {} corners; it needs at least 3", corners));
+        if (corners < 3) {
+            faces.corners.resize(faces.corners.size() - corners);
+            faces.texture_corners.resize(faces.corners.size());
+            ++small_faces_;
+            return;
+        }
         faces.first.push_back(static_cast<std::uint32_t>(faces.corners.size()));
         file_.face_textures.push_back(material_);
     }
 
     void finish_colours() {
+        if (colours_.empty()) return;
+        colours_.resize(file_.mesh.vertices_mm.size(), no_colour);
         // The usual writers give reals in [0, 1]; some give bytes.
         double largest = 0;
         for (const auto& c : colours_) largest = std::max({largest, c[0], c[1], c[2]});
-        const double scale = largest > 1.0 ? 1.0 : 255.0;
-        for (const auto& c : colours_)
-            file_.mesh.colours.push_back(
-                {colour_byte(c[0], scale), colour_byte(c[1], scale), colour_byte(c[2], scale)});
+        const double scale = colour_scale(largest, false);
+        std::size_t without = 0;
+        for (const auto& c : colours_) {
+            without += c == no_colour ? 1 : 0;
+            file_.mesh.colours.push_back(c == no_colour ? std::array<std::uint8_t, 3>{255, 255, 255}
+                                                        : std::array{colour_byte(c[0], scale), colour_byte(c[1], scale),
+                                                                     colour_byte(c[2], scale)});
+        }
+        remark(without, "vertices have no colour and others have; they become white");
     }
 
     void finish_texture() {
@@ -189,14 +214,21 @@ private:
                                 lines_.file_name(), line, what, std::size_t{largest} + 1, count));
         };
         check(largest_vertex_, largest_vertex_line_, mesh.vertices_mm.size(), "vertex");
-        check(largest_texture_, largest_texture_line_, mesh.texture_coordinates.size(), "texture");
+        if (any_texture_ && mesh.texture_coordinates.empty()) {
+            file_.remarks.push_back(
+                fmt::format("{}: faces name texture positions and there is no 'vt' line; the texture is left out",
+                            lines_.file_name()));
+            any_texture_ = false;
+        }
+        if (any_texture_) check(largest_texture_, largest_texture_line_, mesh.texture_coordinates.size(), "texture");
         auto& texture = mesh.faces.texture_corners;
         if (!any_texture_) {
             texture.clear();
             if (mesh.texture_coordinates.size() != mesh.vertices_mm.size()) mesh.texture_coordinates.clear();
             return;
         }
-        if (std::find(texture.begin(), texture.end(), no_texture) != texture.end()) {
+        if (const auto bare = std::count(texture.begin(), texture.end(), no_texture); bare > 0) {
+            remark(static_cast<std::size_t>(bare), "corners of faces have no texture position; they get (0, 0)");
             std::replace(texture.begin(), texture.end(), no_texture,
                          static_cast<std::uint32_t>(mesh.texture_coordinates.size()));
             mesh.texture_coordinates.emplace_back(0.0, 0.0);
@@ -214,6 +246,7 @@ private:
     std::size_t largest_vertex_line_ = 0, largest_texture_line_ = 0;
     std::map<std::string, std::uint32_t> materials_;
     std::uint32_t material_ = no_picture;  // of the faces that follow
+    std::size_t small_faces_ = 0;
     bool any_texture_ = false;
 };
 
@@ -226,6 +259,7 @@ MeshFile decode_obj(std::span<const std::uint8_t> bytes, const std::string& name
 void encode_obj(std::ostream& out, const Mesh& mesh, const MeshWriteOptions& options,
                 const std::string& material_file) {
     std::string text = "# lengths in millimetres\n";
+    if (options.frame) text += fmt::format("# SPACE={}\n", to_string(*options.frame));
     const auto into = std::back_inserter(text);
     for (const auto& [key, value] : options.made_by) fmt::format_to(into, "# {}: {}\n", key, one_line(value));
     const auto& pictures = options.face_textures;

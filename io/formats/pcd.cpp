@@ -1,8 +1,12 @@
 #include "io/formats/pcd.h"
 
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,6 +26,8 @@ constexpr std::size_t most_fields = 1000;
 constexpr std::size_t largest_count = 10000;
 // Compressed fields can hold 700 times their bytes as numbers; a scan of a million points with 12 fields has 96 MB.
 constexpr std::uint64_t most_decoded_bytes = std::uint64_t{256} << 20;
+// Whoever draws or warps the points takes ten times their memory: a small file shall not ask for gigabytes.
+constexpr std::uint64_t free_decoded_bytes = std::uint64_t{64} << 20, decoded_per_byte = 16;
 // Three bytes of LZF stand for at most 264.
 constexpr std::uint64_t best_lzf_ratio = 88;
 
@@ -81,9 +87,47 @@ std::size_t whole_number(const base::LineReader& lines, std::string_view what, s
     return static_cast<std::size_t>(*value);
 }
 
+/// SIZE, TYPE and COUNT that stand before FIELDS.
+using FieldLines = std::map<std::string, std::pair<base::LineReader, std::vector<std::string_view>>, std::less<>>;
+
+void apply_field_lines(const FieldLines& field_lines, Header& header) {
+    for (const auto& [key, line_and_words] : field_lines) {
+        const auto& [line, words] = line_and_words;
+        if (words.size() != header.fields.size())
+            line.fail(fmt::format("{} has {} entries for {} fields", key, words.size(), header.fields.size()));
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            auto& field = header.fields[i];
+            if (key == "SIZE") {
+                field.size = whole_number(line, "SIZE", words[i], 1, 8);
+                if (field.size != 1 && field.size != 2 && field.size != 4 && field.size != 8)
+                    line.fail(fmt::format("SIZE of field {} is {}; it must be 1, 2, 4 or 8",
+                                          base::in_quotes(field.name), field.size));
+            } else if (key == "TYPE") {
+                const auto type = base::lower_case(words[i]);
+                if (type != "f" && type != "i" && type != "u")
+                    line.fail(fmt::format("TYPE of field {} is {}; it must be F, I or U", base::in_quotes(field.name),
+                                          base::in_quotes(words[i])));
+                field.kind = type == "f" ? 'F' : type == "i" ? 'I' : 'U';
+            } else {
+                field.count = whole_number(line, "COUNT", words[i], 1, largest_count);
+            }
+        }
+    }
+}
+
+Storage storage_named(const base::LineReader& lines, std::string_view word) {
+    const auto storage = base::lower_case(word);
+    if (storage == "ascii") return Storage::ascii;
+    if (storage == "binary") return Storage::binary;
+    if (storage == "binary_compressed") return Storage::compressed;
+    lines.fail(fmt::format("DATA is {}; it must be ascii, binary or binary_compressed", base::in_quotes(word)));
+}
+
 Header parse_header(base::LineReader& lines) {
     Header header;
+    FieldLines field_lines;
     constexpr std::size_t most_points = std::numeric_limits<std::int32_t>::max();
+    bool known = false;
     while (lines.next_not_blank()) {
         std::string_view rest = lines.line();
         const auto key = base::next_word(rest);
@@ -94,24 +138,11 @@ Header parse_header(base::LineReader& lines) {
             header.fields.resize(words.size());
             for (std::size_t i = 0; i < words.size(); ++i) header.fields[i].name = words[i];
         } else if (key == "SIZE" || key == "TYPE" || key == "COUNT") {
-            if (words.size() != header.fields.size())
-                lines.fail(fmt::format("{} has {} entries for {} fields", key, words.size(), header.fields.size()));
-            for (std::size_t i = 0; i < words.size(); ++i) {
-                auto& field = header.fields[i];
-                if (key == "SIZE") {
-                    field.size = whole_number(lines, "SIZE", words[i], 1, 8);
-                    if (field.size != 1 && field.size != 2 && field.size != 4 && field.size != 8)
-                        lines.fail(fmt::format("SIZE of field {} is {}; it must be 1, 2, 4 or 8",
-                                               base::in_quotes(field.name), field.size));
-                } else if (key == "TYPE") {
-                    if (words[i] != "F" && words[i] != "I" && words[i] != "U")
-                        lines.fail(fmt::format("TYPE of field {} is {}; it must be F, I or U",
-                                               base::in_quotes(field.name), base::in_quotes(words[i])));
-                    field.kind = words[i][0];
-                } else {
-                    field.count = whole_number(lines, "COUNT", words[i], 1, largest_count);
-                }
-            }
+            FieldLines this_line = {{std::string(key), {lines, words}}};
+            if (header.fields.empty())
+                field_lines.merge(this_line);
+            else
+                apply_field_lines(this_line, header);
         } else if (key == "WIDTH") {
             header.width = whole_number(lines, key, base::trimmed(rest), 0, most_points);
         } else if (key == "HEIGHT") {
@@ -119,24 +150,18 @@ Header parse_header(base::LineReader& lines) {
         } else if (key == "POINTS") {
             header.points = whole_number(lines, key, base::trimmed(rest), 0, most_points);
         } else if (key == "DATA") {
-            const auto storage = base::trimmed(rest);
-            if (storage == "ascii")
-                header.storage = Storage::ascii;
-            else if (storage == "binary")
-                header.storage = Storage::binary;
-            else if (storage == "binary_compressed")
-                header.storage = Storage::compressed;
-            else
-                lines.fail(
-                    fmt::format("DATA is {}; it must be ascii, binary or binary_compressed", base::in_quotes(storage)));
+            header.storage = storage_named(lines, base::trimmed(rest));
+            apply_field_lines(field_lines, header);
             for (const auto& field : header.fields)
                 if (field.kind == 'F' && field.size != 4 && field.size != 8)
                     lines.fail(fmt::format("field {} is a real number of {} bytes; it must have 4 or 8",
                                            base::in_quotes(field.name), field.size));
             return header;
-        } else {
+        } else if (!known) {
+            // Whoever writes the format may add lines of his own, but not at its beginning.
             lines.fail(fmt::format("{} is no PCD header keyword; is it a PCD file?", base::in_quotes(key)));
         }
+        known = true;
     }
     throw InputError(
         fmt::format("{}: the header has no DATA line; it is truncated, or no PCD file", lines.file_name()));
@@ -148,8 +173,9 @@ Field* find_scalar(Header& header, std::string_view name) {
     return nullptr;
 }
 
-void direct_fields(Header& header, std::size_t count, Mesh& mesh, std::vector<double>& packed, MeshParts parts,
-                   const std::string& name) {
+/// Where colours go: packed in one field, or a byte each.
+void direct_fields(Header& header, std::size_t count, Mesh& mesh, std::vector<double>& packed,
+                   std::vector<double>& channels, MeshParts parts, const std::string& name) {
     mesh.vertices_mm.resize(count);
     constexpr std::array<std::string_view, 3> axes = {"x", "y", "z"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -164,6 +190,18 @@ void direct_fields(Header& header, std::size_t count, Mesh& mesh, std::vector<do
         packed.resize(count);
         colour->column = packed.data();
         colour->packed_colour = true;
+    }
+    const auto is_byte = [&](std::string_view field) {
+        const auto* found = find_scalar(header, field);
+        return found && found->size == 1 && found->kind == 'U';
+    };
+    if (!colour && is_byte("r") && is_byte("g") && is_byte("b") && count > 0) {
+        channels.resize(3 * count);
+        constexpr std::array<std::string_view, 3> names = {"r", "g", "b"};
+        for (std::size_t c = 0; c < 3; ++c) {
+            find_scalar(header, names[c])->column = channels.data() + c;
+            find_scalar(header, names[c])->stride = 3;
+        }
     }
     auto* u = find_scalar(header, "u");
     auto* v = find_scalar(header, "v");
@@ -203,7 +241,8 @@ void read_ascii(const Header& header, std::size_t count, base::LineReader& lines
         for (const auto& field : header.fields)
             for (std::size_t c = 0; c < field.count; ++c) {
                 const auto word = base::next_word(rest);
-                auto value = base::parse_double(word);
+                auto value = base::parse_double_or_nan(word);
+                if (!value && !word.empty() && !field.column) value = 0.0;
                 if (!value)
                     lines.fail(fmt::format("{} is {}, not a number", base::in_quotes(field.name),
                                            word.empty() ? "missing" : base::in_quotes(word)));
@@ -264,16 +303,17 @@ MeshFile decode_pcd(std::span<const std::uint8_t> bytes, const std::string& name
                         "its header wrong",
                         name, header.width, header.height, data.size()));
     const std::uint64_t decoded = count * std::max(8 * values, point_bytes);
-    if (decoded > most_decoded_bytes)
+    if (const auto most = std::min(most_decoded_bytes, free_decoded_bytes + decoded_per_byte * bytes.size());
+        decoded > most)
         throw InputError(
             fmt::format("{}: {} points of {} values take {} bytes of memory, more than {}; thin the scan out or leave "
                         "fields out",
-                        name, count, values, decoded, most_decoded_bytes));
+                        name, count, values, decoded, most));
     MeshFile file;
-    std::vector<double> packed_colours;
+    std::vector<double> packed_colours, channels;
     std::vector<std::uint8_t> unpacked;
     if (header.storage == Storage::compressed) unpacked = decompress(data, count * point_bytes, name);
-    direct_fields(header, count, file.mesh, packed_colours, parts, name);
+    direct_fields(header, count, file.mesh, packed_colours, channels, parts, name);
     if (header.storage == Storage::ascii) {
         read_ascii(header, count, lines);
     } else {
@@ -290,6 +330,9 @@ MeshFile decode_pcd(std::span<const std::uint8_t> bytes, const std::string& name
         file.mesh.colours.push_back({static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U),
                                      static_cast<std::uint8_t>(rgb)});
     }
+    for (std::size_t k = 0; k < channels.size(); k += 3)
+        file.mesh.colours.push_back(
+            {colour_byte(channels[k], 1), colour_byte(channels[k + 1], 1), colour_byte(channels[k + 2], 1)});
     for (auto& p : file.mesh.vertices_mm)
         if (!p.allFinite()) p.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (header.height > 1) {

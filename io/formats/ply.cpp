@@ -1,8 +1,11 @@
 #include "io/formats/ply.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <set>
 #include <vector>
@@ -17,7 +20,6 @@ namespace mimik::io::formats {
 
 using geometry::Mesh;
 using geometry::TextureCoordinate;
-using geometry::VertexAttribute;
 
 namespace {
 
@@ -59,6 +61,7 @@ struct Header {
     Encoding encoding = Encoding::ascii;
     std::vector<Element> elements;
     std::vector<std::string> texture_files;
+    std::optional<BodyFrame> frame;
 };
 
 std::optional<Scalar> parse_type(std::string_view word) {
@@ -132,6 +135,7 @@ Header parse_header(base::LineReader& lines) {
                                        base::in_quotes(encoding)));
             format_seen = true;
         } else if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) {
+            if (!header.frame) header.frame = frame_in_comment(rest);
             if (base::next_word(rest) != "TextureFile" || base::trimmed(rest).empty()) continue;
             if (header.texture_files.size() == most_textures)
                 lines.fail(fmt::format("more than {} texture files", most_textures));
@@ -185,9 +189,10 @@ void check_count(const Element& element, Encoding encoding, std::size_t bytes_le
 
 void read_ascii(Element& element, base::LineReader& lines) {
     std::vector<double> values;
-    const auto number = [&](std::string_view& rest, const Property& p) {
+    const auto number = [&](std::string_view& rest, const Property& p, bool used) {
         const auto word = base::next_word(rest);
-        if (const auto value = base::parse_double(word)) return *value;
+        if (const auto value = base::parse_double_or_nan(word)) return *value;
+        if (!used && !word.empty()) return 0.0;
         if (word.empty())
             lines.fail(fmt::format("row of element {} ends before {}", base::in_quotes(element.name),
                                    base::in_quotes(p.name)));
@@ -200,7 +205,7 @@ void read_ascii(Element& element, base::LineReader& lines) {
                             lines.file_name(), base::in_quotes(element.name), row, element.count));
         std::string_view rest = lines.line();
         for (const auto& p : element.properties) {
-            const double first = number(rest, p);
+            const double first = number(rest, p, p.column || p.count_type);
             if (!p.count_type) {
                 if (p.column) p.column[row * p.column_stride] = first;
                 continue;
@@ -210,7 +215,8 @@ void read_ascii(Element& element, base::LineReader& lines) {
                 lines.fail(fmt::format("list {} has count {}, but the line has {} characters left",
                                        base::in_quotes(p.name), first, rest.size()));
             values.clear();
-            for (std::size_t k = 0; k < static_cast<std::size_t>(first); ++k) values.push_back(number(rest, p));
+            for (std::size_t k = 0; k < static_cast<std::size_t>(first); ++k)
+                values.push_back(number(rest, p, p.list != nullptr));
             if (p.list) p.list(row, values);
         }
         if (const auto extra = base::next_word(rest); !extra.empty())
@@ -308,7 +314,55 @@ std::vector<AttributeGroup> group_attributes(const std::vector<Property*>& loose
 /// Colour channels while they are read.
 struct ColourColumns {
     std::array<std::vector<double>, 3> channels;
-    double scale = 1.0;
+    bool whole = true;  ///< integers
+
+    void store(std::vector<std::array<std::uint8_t, 3>>& colours) const {
+        if (channels[0].empty()) return;
+        double largest = 0;
+        for (const auto& channel : channels)
+            for (const double value : channel) largest = std::max(largest, value);
+        const double scale = colour_scale(largest, whole);
+        colours.resize(channels[0].size());
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < colours.size(); ++i) colours[i][c] = colour_byte(channels[c][i], scale);
+    }
+};
+
+/// Texture positions per corner while they are read: one list a row of the element 'face', perhaps an empty one.
+struct CornerTexture {
+    std::vector<TextureCoordinate> positions;
+    std::vector<std::size_t> first_of_row = {0};
+    std::vector<std::size_t> row_of_face;  ///< faces that are dropped have none
+
+    /// A face with a list of another length than its corners has no picture: (0, 0). @return the number of such faces.
+    std::size_t store(Mesh& mesh) const {
+        if (positions.empty()) return 0;
+        auto& faces = mesh.faces;
+        std::vector<TextureCoordinate> used;
+        used.reserve(faces.corners.size() + 1);
+        faces.texture_corners.clear();
+        std::size_t bare = 0;
+        constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            const bool has_row = f < row_of_face.size() && row_of_face[f] + 1 < first_of_row.size();
+            const auto first = has_row ? first_of_row[row_of_face[f]] : 0;
+            const auto size = faces[f].size();
+            const bool fits = has_row && first_of_row[row_of_face[f] + 1] - first == size;
+            bare += fits ? 0 : 1;
+            for (std::size_t k = 0; k < size; ++k) {
+                faces.texture_corners.push_back(fits ? static_cast<std::uint32_t>(used.size()) : none);
+                if (fits) used.push_back(positions[first + k]);
+            }
+        }
+        if (bare > 0) {
+            std::replace(faces.texture_corners.begin(), faces.texture_corners.end(), none,
+                         static_cast<std::uint32_t>(used.size()));
+            used.emplace_back(0.0, 0.0);
+        }
+        // Positions per corner are the finer ones where a file has both.
+        mesh.texture_coordinates = std::move(used);
+        return bare;
+    }
 };
 
 void direct_vertices(Element& vertices, Mesh& mesh, ColourColumns& colours, const std::string& name) {
@@ -332,16 +386,20 @@ void direct_vertices(Element& vertices, Mesh& mesh, ColourColumns& colours, cons
         const auto* p = vertices.find(property);
         return p && !p->count_type;
     };
-    if (scalar("red") && scalar("green") && scalar("blue")) {
-        const auto type = vertices.find("red")->type;
-        colours.scale = type == Scalar::float32 || type == Scalar::float64 ? 255.0 : 1.0;
-        constexpr std::array<std::string_view, 3> channels = {"red", "green", "blue"};
+    std::set<std::string_view> known = {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha"};
+    constexpr std::array<std::array<std::string_view, 3>, 3> colour_names = {
+        {{"red", "green", "blue"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}, {"r", "g", "b"}}};
+    for (const auto& channels : colour_names) {
+        if (!std::all_of(channels.begin(), channels.end(), scalar)) continue;
         for (std::size_t c = 0; c < 3; ++c) {
+            const auto type = vertices.find(channels[c])->type;
+            colours.whole = colours.whole && type != Scalar::float32 && type != Scalar::float64;
             colours.channels[c].resize(count);
             take(channels[c], colours.channels[c].data(), 1);
+            known.insert(channels[c]);
         }
+        break;
     }
-    std::set<std::string_view> known = {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha"};
     constexpr std::array<std::array<std::string_view, 2>, 3> texture_names = {
         {{"texture_u", "texture_v"}, {"s", "t"}, {"u", "v"}}};
     for (const auto& [u, v] : texture_names) {
@@ -375,11 +433,29 @@ struct TextureNumbers {
     std::vector<std::size_t> row_of_face;
 };
 
-void direct_faces(Element& element, std::size_t vertex_count, Mesh& mesh,
-                  std::vector<TextureCoordinate>& corner_texture, TextureNumbers& textures, const std::string& name) {
-    auto* indices = element.find("vertex_indices");
-    if (!indices) indices = element.find("vertex_index");
-    if (!indices || !indices->count_type) {
+/// What the lists of corners were, beside faces.
+struct FaceCounts {
+    std::size_t too_small = 0;  ///< of 0 to 2 corners: dropped
+};
+
+Property* corner_list(Element& element) {
+    for (const char* name : {"vertex_indices", "vertex_index"})
+        if (auto* list = element.find(name); list && list->count_type) return list;
+    return nullptr;
+}
+
+std::uint32_t checked_corner(double corner, std::size_t vertex_count, const char* what, std::size_t row,
+                             const std::string& name) {
+    if (!(corner >= 0 && corner < static_cast<double>(vertex_count) && corner == std::floor(corner)))
+        throw InputError(fmt::format("{}: {} {} names vertex {}; there are vertices 0 to {}", name, what, row, corner,
+                                     static_cast<std::int64_t>(vertex_count) - 1));
+    return static_cast<std::uint32_t>(corner);
+}
+
+void direct_faces(Element& element, std::size_t vertex_count, Mesh& mesh, CornerTexture& corner_texture,
+                  TextureNumbers& textures, FaceCounts& counts, const std::string& name) {
+    auto* indices = corner_list(element);
+    if (!indices) {
         if (element.count == 0) return;
         throw InputError(fmt::format("{}: element 'face' has no list 'vertex_indices'", name));
     }
@@ -390,22 +466,25 @@ void direct_faces(Element& element, std::size_t vertex_count, Mesh& mesh,
         number->column = textures.of_row.data();
         number->column_stride = 1;
     }
-    indices->list = [&mesh, &textures, vertex_count, name](std::size_t row, std::span<const double> corners) {
-        if (corners.size() < 3)
-            throw InputError(
-                fmt::format("{}: face {} has {} corners; a face needs at least 3", name, row, corners.size()));
-        for (const double corner : corners) {
-            if (!(corner >= 0 && corner < static_cast<double>(vertex_count) && corner == std::floor(corner)))
-                throw InputError(fmt::format("{}: face {} names vertex {}; there are vertices 0 to {}", name, row,
-                                             corner, static_cast<std::int64_t>(vertex_count) - 1));
-            mesh.faces.corners.push_back(static_cast<std::uint32_t>(corner));
-        }
+    auto* texture = element.find("texcoord");
+    if (texture && !texture->count_type) texture = nullptr;
+    if (texture) corner_texture.row_of_face.resize(mesh.faces.size(), std::numeric_limits<std::size_t>::max() - 1);
+    constexpr auto no_row = std::numeric_limits<std::size_t>::max() - 1;
+    if (!textures.of_row.empty()) textures.row_of_face.resize(mesh.faces.size(), no_row);
+    indices->list = [&mesh, &corner_texture, &textures, &counts, has_texture = texture != nullptr, vertex_count, name](
+                        std::size_t row, std::span<const double> corners) {
+        counts.too_small += corners.size() < 3 ? 1 : 0;
+        if (corners.size() < 3) return;
+        for (const double corner : corners)
+            mesh.faces.corners.push_back(checked_corner(corner, vertex_count, "face", row, name));
         mesh.faces.first.push_back(static_cast<std::uint32_t>(mesh.faces.corners.size()));
+        if (has_texture) corner_texture.row_of_face.push_back(row);
         if (!textures.of_row.empty()) textures.row_of_face.push_back(row);
     };
-    if (auto* texture = element.find("texcoord"); texture && texture->count_type)
+    if (texture)
         texture->list = [&corner_texture](std::size_t, std::span<const double> uv) {
-            for (std::size_t k = 0; k + 1 < uv.size(); k += 2) corner_texture.emplace_back(uv[k], uv[k + 1]);
+            for (std::size_t k = 0; k + 1 < uv.size(); k += 2) corner_texture.positions.emplace_back(uv[k], uv[k + 1]);
+            corner_texture.first_of_row.push_back(corner_texture.positions.size());
         };
 }
 
@@ -422,16 +501,48 @@ void take_textures(const TextureNumbers& numbers, std::vector<std::string> image
     if (count == 0 || numbers.of_row.empty()) return;
     std::size_t without = 0;
     for (const auto row : numbers.row_of_face) {
-        const double number = numbers.of_row[row];
+        const double number = row < numbers.of_row.size() ? numbers.of_row[row] : -1;
         const bool known = number >= 0 && number < static_cast<double>(count) && number == std::floor(number);
         file.face_textures.push_back(known ? static_cast<std::uint32_t>(number) : no_picture);
         without += known || number == -1 ? 0 : 1;
     }
+    file.face_textures.resize(file.mesh.faces.size(), no_picture);  // those of strips
     if (without > 0)
         file.remarks.push_back(
             fmt::format("{}: 'texnumber' of {} faces is that of no image (there are {}); they have no "
                         "picture",
                         name, without, count));
+}
+
+/// Stanford's way: strips of triangles one after another, each ended by -1. Triangles that repeat a corner only turn a
+/// strip.
+void direct_strips(Element& element, std::size_t vertex_count, Mesh& mesh, const std::string& name) {
+    auto* indices = corner_list(element);
+    if (!indices) {
+        if (element.count == 0) return;
+        throw InputError(fmt::format("{}: element 'tristrips' has no list 'vertex_indices'", name));
+    }
+    indices->list = [&mesh, vertex_count, name](std::size_t row, std::span<const double> corners) {
+        std::vector<std::uint32_t> strip;
+        for (const double corner : corners) {
+            if (corner == -1 || corner == std::numeric_limits<std::uint32_t>::max()) {
+                strip.clear();
+                continue;
+            }
+            strip.push_back(checked_corner(corner, vertex_count, "strip", row, name));
+            if (strip.size() < 3) continue;
+            // Every other triangle of a strip runs the other way round.
+            const bool odd = strip.size() % 2 == 0;
+            const auto a = strip[strip.size() - 3], b = strip[strip.size() - 2], c = strip.back();
+            if (a != b && b != c && c != a) mesh.faces.add(std::array{a, odd ? c : b, odd ? b : c});
+        }
+    };
+}
+
+/// What follows the last element, unless it is blank: a file that was overwritten by a shorter one, or a foreign end.
+std::size_t trailing_bytes(std::string_view rest) {
+    const auto last = rest.find_last_not_of(std::string_view(" \t\r\n\0\x1A", 6));
+    return last == std::string_view::npos ? 0 : last + 1;
 }
 
 }  // namespace
@@ -440,6 +551,7 @@ MeshFile decode_ply(std::span<const std::uint8_t> bytes, const std::string& name
     base::LineReader lines(as_text(bytes), name);
     auto header = parse_header(lines);
     MeshFile file;
+    file.frame = header.frame;
     std::size_t vertex_count = 0;
     bool vertices_seen = false;
     std::set<std::string> names;
@@ -454,14 +566,17 @@ MeshFile decode_ply(std::span<const std::uint8_t> bytes, const std::string& name
     if (!vertices_seen) throw InputError(fmt::format("{}: the header has no element 'vertex'", name));
 
     ColourColumns colours;
-    std::vector<TextureCoordinate> corner_texture;
+    CornerTexture corner_texture;
     TextureNumbers textures;
+    FaceCounts counts;
     std::size_t offset = lines.offset();
     for (auto& element : header.elements) {
         const bool ascii = header.encoding == Encoding::ascii;
         check_count(element, header.encoding, ascii ? lines.bytes_left() : bytes.size() - offset, name);
         if (element.name == "vertex") direct_vertices(element, file.mesh, colours, name);
-        if (element.name == "face") direct_faces(element, vertex_count, file.mesh, corner_texture, textures, name);
+        if (element.name == "face")
+            direct_faces(element, vertex_count, file.mesh, corner_texture, textures, counts, name);
+        if (element.name == "tristrips") direct_strips(element, vertex_count, file.mesh, name);
         if (ascii)
             read_ascii(element, lines);
         else
@@ -469,132 +584,16 @@ MeshFile decode_ply(std::span<const std::uint8_t> bytes, const std::string& name
     }
 
     take_textures(textures, std::move(header.texture_files), file, name);
-    if (!colours.channels[0].empty()) {
-        file.mesh.colours.resize(vertex_count);
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < vertex_count; ++i)
-                file.mesh.colours[i][c] = colour_byte(colours.channels[c][i], colours.scale);
-    }
-    if (!corner_texture.empty()) {
-        if (corner_texture.size() != file.mesh.faces.corners.size())
-            throw InputError(
-                fmt::format("{}: 'texcoord' gives {} texture positions for {} face corners; every corner needs one",
-                            name, corner_texture.size(), file.mesh.faces.corners.size()));
-        // Positions per corner are the finer ones where a file has both.
-        file.mesh.texture_coordinates = std::move(corner_texture);
-        file.mesh.faces.texture_corners.resize(file.mesh.faces.corners.size());
-        for (std::uint32_t k = 0; k < file.mesh.faces.texture_corners.size(); ++k)
-            file.mesh.faces.texture_corners[k] = k;
-    }
+    colours.store(file.mesh.colours);
+    const auto remark = [&](std::size_t count, const char* what) {
+        if (count > 0) file.remarks.push_back(fmt::format("{}: {} {}", name, count, what));
+    };
+    remark(corner_texture.store(file.mesh), "faces have no texture position for each corner; they get (0, 0)");
+    remark(counts.too_small, "faces have fewer than 3 corners; they are left out");
+    const bool ascii = header.encoding == Encoding::ascii;
+    const auto rest = as_text(bytes).substr(ascii ? lines.offset() : offset);
+    remark(trailing_bytes(rest), "bytes behind the last element are passed over");
     return file;
-}
-
-namespace {
-
-std::vector<std::string> component_names(const VertexAttribute& attribute) {
-    if (attribute.components == 1) return {attribute.name};
-    std::vector<std::string> names;
-    names.reserve(static_cast<std::size_t>(attribute.components));
-    for (int c = 0; c < attribute.components; ++c)
-        names.push_back(attribute.components <= 4 ? fmt::format("{}_{}", attribute.name, "xyzw"[c])
-                                                  : fmt::format("{}_{}", attribute.name, c));
-    return names;
-}
-
-void check_attribute_names(const Mesh& mesh) {
-    std::set<std::string> taken = {"x",    "y",     "z",         "nx",        "ny", "nz", "red", "green",
-                                   "blue", "alpha", "texture_u", "texture_v", "s",  "t",  "u",   "v"};
-    for (const auto& attribute : mesh.attributes)
-        for (const auto& component : component_names(attribute)) {
-            if (component.empty() || component.find_first_of(" \t\r\n") != std::string::npos)
-                throw InputError(fmt::format("attribute {} cannot be a PLY property: a name has no blanks",
-                                             base::in_quotes(component)));
-            if (!taken.insert(component).second)
-                throw InputError(fmt::format("attribute {} cannot be a PLY property: that name is taken",
-                                             base::in_quotes(component)));
-        }
-}
-
-}  // namespace
-
-void encode_ply(std::ostream& out, const Mesh& mesh, const MeshWriteOptions& options) {
-    check_attribute_names(mesh);
-    const bool corner_texture = !mesh.faces.texture_corners.empty();
-    const bool vertex_texture = !mesh.texture_coordinates.empty() && !corner_texture;
-    std::size_t longest = 0;
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) longest = std::max(longest, mesh.faces[f].size());
-    // Lists are counted in bytes, as every reader expects, unless a polygon is too large for that.
-    const bool wide = longest > 255, wide_texture = 2 * longest > 255;
-
-    std::string text = fmt::format("ply\nformat {} 1.0\ncomment lengths in millimetres\n",
-                                   options.binary ? "binary_little_endian" : "ascii");
-    for (const auto& [key, value] : options.made_by) text += fmt::format("comment {}: {}\n", key, one_line(value));
-    for (const auto& texture : options.texture_files) text += fmt::format("comment TextureFile {}\n", texture);
-    text += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
-                        mesh.vertices_mm.size());
-    if (!mesh.colours.empty()) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    if (vertex_texture) text += "property double texture_u\nproperty double texture_v\n";
-    for (const auto& attribute : mesh.attributes)
-        for (const auto& component : component_names(attribute)) text += fmt::format("property double {}\n", component);
-    if (mesh.faces.size() > 0) {
-        text += fmt::format("element face {}\nproperty list {} int vertex_indices\n", mesh.faces.size(),
-                            wide ? "int" : "uchar");
-        if (corner_texture) text += fmt::format("property list {} double texcoord\n", wide_texture ? "int" : "uchar");
-        if (!options.face_textures.empty()) text += "property int texnumber\n";
-    }
-    text += "end_header\n";
-
-    const auto number = [&](double value, bool last = false) {
-        if (options.binary)
-            append(text, value);
-        else
-            fmt::format_to(std::back_inserter(text), "{:.17g}{}", value, last ? '\n' : ' ');
-    };
-    const auto integer = [&](std::size_t value, bool one_byte) {
-        if (!options.binary)
-            fmt::format_to(std::back_inserter(text), "{} ", value);
-        else if (one_byte)
-            append(text, static_cast<std::uint8_t>(value));
-        else
-            append(text, static_cast<std::int32_t>(value));
-    };
-    const auto number_of_texture = [&](std::uint32_t texture) {
-        const auto value = texture == no_picture ? -1 : static_cast<std::int32_t>(texture);
-        if (options.binary)
-            append(text, value);
-        else
-            fmt::format_to(std::back_inserter(text), "{} ", value);
-    };
-    const auto end_row = [&] {
-        if (!options.binary) text.back() = '\n';
-    };
-    for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
-        for (const double coordinate : mesh.vertices_mm[i]) number(coordinate);
-        if (!mesh.colours.empty())
-            for (const auto channel : mesh.colours[i]) integer(channel, true);
-        if (vertex_texture)
-            for (const double coordinate : mesh.texture_coordinates[i]) number(coordinate);
-        for (const auto& attribute : mesh.attributes)
-            for (int c = 0; c < attribute.components; ++c)
-                number(
-                    attribute.values[i * static_cast<std::size_t>(attribute.components) + static_cast<std::size_t>(c)]);
-        end_row();
-    }
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        const auto face = mesh.faces[f];
-        integer(face.size(), !wide);
-        for (const auto corner : face) integer(corner, false);
-        if (corner_texture) {
-            integer(2 * face.size(), !wide_texture);
-            for (std::size_t k = 0; k < face.size(); ++k)
-                for (const double coordinate :
-                     mesh.texture_coordinates[mesh.faces.texture_corners[mesh.faces.first[f] + k]])
-                    number(coordinate);
-        }
-        if (!options.face_textures.empty()) number_of_texture(options.face_textures[f]);
-        end_row();
-    }
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
 }
 
 }  // namespace mimik::io::formats

@@ -22,7 +22,10 @@ RawLandmarks decode_pp(std::string_view text, const std::string& name) {
     RawLandmarks raw;
     for (const auto point : root.children("point")) {
         const auto active = point.attribute("active");
-        if (active && std::string_view(active.value()) == "0") continue;
+        if (active && std::string_view(active.value()) == "0") {
+            ++raw.unmarked;
+            continue;
+        }
         const std::string_view label = base::trimmed(point.attribute("name").value());
         Point position;
         for (Eigen::Index axis = 0; axis < 3; ++axis) {

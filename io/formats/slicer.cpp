@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -20,14 +21,48 @@ namespace {
 
 using Json = nlohmann::json;
 
-bool is_frame(std::string_view text) { return text == "LPS" || text == "RAS" || text == "0" || text == "1"; }
-
 // Slicer's own files have some 40 values per point.
 constexpr JsonLimits slicer_limits = {.most_values = 1'000'000};
 
 std::string text_of(const Json& object, const char* key, const std::string& otherwise) {
     const auto it = object.find(key);
     return it != object.end() && it->is_string() ? it->get<std::string>() : otherwise;
+}
+
+/// Where the fields of a point are. If no comment says so, as in Slicer 4.
+struct FcsvColumns {
+    std::size_t x = 1, y = 2, z = 3;
+    std::optional<std::size_t> id = 0, label = 11;
+};
+
+FcsvColumns fcsv_columns(const base::LineReader& lines, std::string_view list, const std::string& name) {
+    base::LineReader columns(list, name);
+    std::vector<std::string> fields;
+    if (columns.next()) base::split_csv_line(columns, fields);
+    const auto find = [&](std::string_view column) -> std::optional<std::size_t> {
+        for (std::size_t i = 0; i < fields.size(); ++i)
+            if (base::equal_ignoring_case(fields[i], column)) return i;
+        return std::nullopt;
+    };
+    const auto place = [&](std::string_view column) {
+        if (const auto found = find(column)) return *found;
+        lines.fail(fmt::format("the list of columns has no '{}'", column));
+    };
+    return {place("x"), place("y"), place("z"), find("id"), find("label")};
+}
+
+/// "# key = value" of a comment. Spreadsheets fill comments up with separators, too.
+struct Comment {
+    std::string_view key, value;
+};
+
+Comment comment_of(std::string_view line) {
+    line.remove_prefix(1);
+    const auto equals = line.find('=');
+    if (equals == std::string_view::npos) return {};
+    auto value = base::trimmed(line.substr(equals + 1));
+    while (value.ends_with(',') || value.ends_with(';')) value = base::trimmed(value.substr(0, value.size() - 1));
+    return {base::trimmed(line.substr(0, equals)), value};
 }
 
 }  // namespace
@@ -37,43 +72,32 @@ RawLandmarks decode_fcsv(std::string_view text, const std::string& name) {
     RawLandmarks raw;
     raw.either_frame = true;
     std::vector<std::string> fields;
-    // Where the columns are if no comment says so (Slicer 4).
-    std::size_t id = 0, x = 1, y = 2, z = 3, label = 11;
+    FcsvColumns columns;
     while (lines.next_not_blank()) {
-        auto line = base::trimmed(lines.line());
+        const auto line = base::trimmed(lines.line());
         if (line.starts_with('#')) {
-            line.remove_prefix(1);
-            const auto equals = line.find('=');
-            if (equals == std::string_view::npos) continue;
-            const auto key = base::trimmed(line.substr(0, equals));
-            const auto value = base::trimmed(line.substr(equals + 1));
-            if (base::equal_ignoring_case(key, "CoordinateSystem") && !is_frame(value))
-                lines.fail(fmt::format("CoordinateSystem is {}; it must be LPS, RAS, 0 (RAS) or 1 (LPS)",
-                                       base::in_quotes(value)));
-            if (!base::equal_ignoring_case(key, "columns")) continue;
-            base::LineReader columns(value, name);
-            if (!columns.next()) continue;
-            base::split_csv_line(columns, fields);
-            const auto place = [&](std::string_view column) {
-                for (std::size_t i = 0; i < fields.size(); ++i)
-                    if (fields[i] == column) return i;
-                lines.fail(fmt::format("the list of columns has no '{}'", column));
-            };
-            id = place("id");
-            x = place("x");
-            y = place("y");
-            z = place("z");
-            label = place("label");
+            const auto [key, value] = comment_of(line);
+            try {
+                if (base::equal_ignoring_case(key, "CoordinateSystem")) raw.frame = parse_body_frame(value);
+            } catch (const InputError& e) {
+                lines.fail(fmt::format("CoordinateSystem is {}", e.what()));
+            }
+            if (base::equal_ignoring_case(key, "columns")) columns = fcsv_columns(lines, value, name);
             continue;
         }
         base::split_csv_line(lines, fields);
-        if (fields.size() <= std::max({x, y, z}))
-            lines.fail(fmt::format("has {} fields; a point needs at least {}", fields.size(), std::max({x, y, z}) + 1));
-        std::string named = label < fields.size() ? fields[label] : std::string();
-        if (named.empty() && id < fields.size()) named = fields[id];
+        if (std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); })) continue;
+        const auto last = std::max({columns.x, columns.y, columns.z});
+        if (fields.size() <= last)
+            lines.fail(fmt::format("has {} fields; a point needs at least {}", fields.size(), last + 1));
+        const auto field = [&](std::optional<std::size_t> column) {
+            return column && *column < fields.size() ? fields[*column] : std::string();
+        };
+        auto named = field(columns.label);
+        if (named.empty()) named = field(columns.id);
         Point position;
         Eigen::Index axis = 0;
-        for (const auto column : {x, y, z}) {
+        for (const auto column : {columns.x, columns.y, columns.z}) {
             const auto value = base::parse_double(fields[column]);
             if (!value || !std::isfinite(*value))
                 lines.fail(fmt::format("{} of point {} is {}, not a finite number; place the point again", "xyz"[axis],
@@ -96,9 +120,14 @@ RawLandmarks decode_mrk_json(std::string_view text, const std::string& name) {
     const auto& markup = json["markups"][0];
     RawLandmarks raw;
     raw.either_frame = true;
-    if (const auto frame = text_of(markup, "coordinateSystem", "LPS"); !is_frame(frame))
-        throw InputError(
-            fmt::format("{}: coordinateSystem is {}; it must be LPS or RAS", name, base::in_quotes(frame)));
+    const auto frame = markup.find("coordinateSystem");
+    try {
+        raw.frame = parse_body_frame(frame != markup.end() && frame->is_number_integer()
+                                         ? frame->dump()
+                                         : text_of(markup, "coordinateSystem", "LPS"));
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: coordinateSystem is {}", name, e.what()));
+    }
     if (const auto unit = text_of(markup, "coordinateUnits", ""); !unit.empty()) {
         try {
             raw.unit = parse_length_unit(unit);
@@ -113,7 +142,10 @@ RawLandmarks decode_mrk_json(std::string_view text, const std::string& name) {
     for (const auto& point : *points) {
         const auto where = fmt::format("{}: controlPoints[{}]", name, index++);
         if (!point.is_object()) throw InputError(fmt::format("{} is not an object", where));
-        if (text_of(point, "positionStatus", "defined") != "defined") continue;
+        if (text_of(point, "positionStatus", "defined") != "defined") {
+            ++raw.unmarked;
+            continue;
+        }
         auto label = text_of(point, "label", "");
         if (label.empty()) label = text_of(point, "id", "");
         const auto position = point.find("position");

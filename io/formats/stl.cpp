@@ -1,13 +1,17 @@
 #include "io/formats/stl.h"
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "geometry/polygon_triangles.h"
 #include "io/formats/bytes.h"
 
 namespace mimik::io::formats {
@@ -69,54 +73,147 @@ void decode_binary(std::span<const std::uint8_t> bytes, Mesh& mesh) {
         }
 }
 
-void decode_ascii(std::span<const std::uint8_t> bytes, const std::string& name, Mesh& mesh) {
-    Welder welder(mesh);
-    base::LineReader lines(as_text(bytes), name);
-    std::size_t corners = 0;
-    bool in_loop = false;
-    while (lines.next_not_blank()) {
-        std::string_view rest = lines.line();
-        const auto keyword = base::lower_case(base::next_word(rest));
-        if (keyword == "vertex") {
-            if (!in_loop || corners == 3) lines.fail("a vertex stands outside 'outer loop', or is the fourth of one");
-            Point position;
-            for (Eigen::Index axis = 0; axis < 3; ++axis) {
-                const auto word = base::next_word(rest);
-                const auto value = base::parse_double(word);
-                if (!value || !std::isfinite(*value))
-                    lines.fail(fmt::format("{} is {}, not a finite number", "xyz"[axis],
-                                           word.empty() ? "missing" : base::in_quotes(word)));
-                position[axis] = *value;
+/// Words of an ASCII file, whatever lines they stand on. Comments run to the end of their line.
+class Words {
+public:
+    Words(std::string_view text, const std::string& name) : lines_(text, name) {}
+
+    /// Lower case; empty at the end of the file.
+    std::string next() {
+        for (;;) {
+            auto word = base::lower_case(base::next_word(rest_));
+            if (word.starts_with('#') || word.starts_with("//") || word.starts_with(';')) {
+                rest_ = {};
+                word.clear();
             }
-            welder.add_corner(position);
-            ++corners;
-        } else if (keyword == "outer") {
-            if (in_loop) lines.fail("an 'outer loop' stands inside another; the 'endloop' is missing");
-            in_loop = true;
-            corners = 0;
-        } else if (keyword == "endloop") {
-            if (corners != 3) lines.fail(fmt::format("a facet has {} vertices; an STL facet has 3", corners));
-            in_loop = false;
-        } else if (keyword != "solid" && keyword != "facet" && keyword != "endfacet" && keyword != "endsolid") {
-            lines.fail(fmt::format("{} is no STL keyword; the file is damaged", base::in_quotes(keyword)));
+            if (!word.empty()) return word;
+            if (!lines_.next()) return {};
+            rest_ = lines_.line();
         }
     }
-    if (in_loop) throw InputError(fmt::format("{}: the last facet has no 'endloop'; the file is truncated", name));
+    [[nodiscard]] std::string_view rest_of_line() const { return rest_; }
+    void skip_line() { rest_ = {}; }
+    void skip_to(std::size_t at) { rest_.remove_prefix(at); }
+    [[noreturn]] void fail(const std::string& what) const { lines_.fail(what); }
+
+private:
+    base::LineReader lines_;
+    std::string_view rest_;
+};
+
+/// Behind "solid" or "endsolid" stands a name, which may be any words; in a file without lines the next facet or solid
+/// follows on the same line. @return the name.
+std::string_view skip_name(Words& words, std::string_view keyword) {
+    constexpr std::size_t longest_name = 1000;
+    const auto rest = words.rest_of_line().substr(0, longest_name);
+    const auto lowered = base::lower_case(rest);
+    std::string_view left = lowered;
+    while (!left.empty()) {
+        const auto word = base::next_word(left);
+        if (word != keyword) continue;
+        auto ahead = left;
+        const bool facet = keyword != "facet" || base::next_word(ahead) == "normal";
+        const auto at = static_cast<std::size_t>(word.data() - lowered.data());
+        if (!facet || !base::parse_double_or_nan(base::next_word(ahead))) {
+            if (keyword == "facet") continue;
+            // "endsolid a solid b facet normal ..."
+            if (lowered.find("facet normal", at) == std::string::npos) continue;
+        }
+        words.skip_to(at);
+        return rest.substr(0, at);
+    }
+    words.skip_line();
+    return rest;
 }
+
+/// The words of the many writers: "endloop", "end loop" and "endfacet", "end facet"; any case; normals of any text,
+/// since they are not used.
+class AsciiReader {
+public:
+    AsciiReader(std::string_view text, const std::string& name, MeshFile& file)
+        : words_(text, name), name_(name), file_(file), welder_(file.mesh) {}
+
+    void read() {
+        for (auto word = words_.next(); !word.empty(); word = words_.next()) read_part(word);
+        if (in_loop_)
+            throw InputError(fmt::format("{}: the last facet has no 'endloop'; the file is truncated", name_));
+    }
+
+private:
+    void read_part(std::string word) {
+        if (word == "end") word += words_.next();
+        if (word == "outer") word += words_.next();
+        if (word == "vertex") {
+            read_vertex();
+        } else if (word == "outerloop" || word == "loop") {
+            if (in_loop_) words_.fail("an 'outer loop' stands inside another; the 'endloop' is missing");
+            in_loop_ = true;
+            corners_ = 0;
+        } else if (word == "endloop") {
+            if (corners_ != 3) words_.fail(fmt::format("a facet has {} vertices; an STL facet has 3", corners_));
+            in_loop_ = false;
+        } else if (word == "normal") {
+            for (int axis = 0; axis < 3; ++axis) {
+                auto ahead = words_.rest_of_line();
+                const auto value = base::lower_case(base::next_word(ahead));
+                if (value.empty() || value == "outer" || value == "outerloop" || value == "loop") break;
+                (void)words_.next();
+            }
+        } else if (word == "solid") {
+            const auto solid_name = skip_name(words_, "facet");
+            if (!file_.frame) file_.frame = frame_in_comment(solid_name);
+        } else if (word == "endsolid") {
+            skip_name(words_, "solid");
+        } else if (word != "facet" && word != "endfacet") {
+            words_.fail(fmt::format("{} is no STL keyword; the file is damaged", base::in_quotes(word)));
+        }
+    }
+
+    void read_vertex() {
+        if (!in_loop_ || corners_ == 3) words_.fail("a vertex stands outside 'outer loop', or is the fourth of one");
+        Point position;
+        for (Eigen::Index axis = 0; axis < 3; ++axis) {
+            const auto word = words_.next();
+            const auto value = base::parse_double(word);
+            if (!value || !std::isfinite(*value))
+                words_.fail(fmt::format("{} is {}, not a finite number", "xyz"[axis],
+                                        word.empty() ? "missing" : base::in_quotes(word)));
+            position[axis] = *value;
+        }
+        welder_.add_corner(position);
+        ++corners_;
+    }
+
+    Words words_;
+    const std::string& name_;
+    MeshFile& file_;
+    Welder welder_;
+    std::size_t corners_ = 0;
+    bool in_loop_ = false;
+};
+
+/// The first word that is no comment.
+std::string first_word(std::string_view text, const std::string& name) { return Words(text, name).next(); }
 
 }  // namespace
 
 MeshFile decode_stl(std::span<const std::uint8_t> bytes, const std::string& name) {
     MeshFile file;
-    // Binary files may begin with "solid" too, so the size decides.
+    auto text = as_text(bytes);
+    // Binary files may begin with "solid" too, so the size decides. In a text the four bytes of the count are letters,
+    // which stand for more triangles than any file has.
     const auto promised = bytes.size() >= header_bytes ? std::uint64_t{load<std::uint32_t>(bytes.data() + 80)} : 0;
-    if (bytes.size() >= header_bytes && bytes.size() == header_bytes + triangle_bytes * promised) {
-        decode_binary(bytes, file.mesh);
+    const auto needed = header_bytes + triangle_bytes * promised;
+    if (bytes.size() >= header_bytes && (bytes.size() == needed || (promised > 0 && bytes.size() > needed))) {
+        decode_binary(bytes.first(needed), file.mesh);
+        file.frame = frame_in_comment(text.substr(0, 80));
+        if (bytes.size() > needed && text.find_first_not_of(std::string_view(" \t\r\n\0", 5), needed) != text.npos)
+            file.remarks.push_back(
+                fmt::format("{}: {} bytes behind the last triangle are passed over", name, bytes.size() - needed));
         return file;
     }
-    auto text = as_text(bytes);
     const bool binary = text.find('\0') != std::string_view::npos;
-    if (binary || !base::equal_ignoring_case(base::next_word(text), "solid"))
+    if (binary || first_word(text, name) != "solid")
         throw InputError(
             bytes.size() < header_bytes
                 ? fmt::format("{}: has {} bytes and does not start with 'solid'; it is not an STL file", name,
@@ -124,13 +221,13 @@ MeshFile decode_stl(std::span<const std::uint8_t> bytes, const std::string& name
                 : fmt::format(
                       "{}: has {} bytes, but the {} triangles of its header (byte 80) need {}; it is truncated, or no "
                       "STL file",
-                      name, bytes.size(), promised, header_bytes + triangle_bytes * promised));
-    decode_ascii(bytes, name, file.mesh);
+                      name, bytes.size(), promised, needed));
+    AsciiReader(text, name, file).read();
     return file;
 }
 
 void encode_stl(std::ostream& out, const Mesh& mesh, const MeshWriteOptions& options, const std::string& name) {
-    const auto triangles = geometry::triangulate(mesh.faces);
+    const auto triangles = geometry::triangulate(mesh.faces, mesh.vertices_mm);
     if (triangles.empty())
         throw InputError(
             fmt::format("{}: not written: STL holds triangles only and there is no face; write PLY", name));
@@ -141,10 +238,12 @@ void encode_stl(std::ostream& out, const Mesh& mesh, const MeshWriteOptions& opt
     std::string text;
     if (options.binary) {
         text = "binary STL, lengths in millimetres";
+        if (options.frame) text += fmt::format("; SPACE={}", to_string(*options.frame));
         text.resize(80, ' ');
         append(text, static_cast<std::uint32_t>(triangles.size()));
     } else {
-        text = "solid millimetres\n";
+        text = fmt::format("solid millimetres{}\n",
+                           options.frame ? fmt::format(" SPACE={}", to_string(*options.frame)) : std::string());
     }
     const auto into = std::back_inserter(text);
     for (const auto& t : triangles) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,6 +25,8 @@ constexpr int most_components = 1000;
 constexpr std::uint64_t best_deflate_ratio = 1032;
 // Compressed arrays can hold 8000 times their bytes as numbers, and any number of them may name the same data.
 constexpr std::uint64_t most_decoded_bytes = std::uint64_t{256} << 20;
+// Whoever draws or warps the points takes ten times their memory: a small file shall not ask for gigabytes.
+constexpr std::uint64_t free_point_bytes = std::uint64_t{64} << 20, point_bytes_per_byte = 16;
 constexpr std::string_view texture_array = "TextureCoordinates";
 constexpr std::string_view texture_corner_array = "TextureCorners";
 constexpr std::string_view colour_array = "RGB";
@@ -94,6 +97,7 @@ public:
     VtpReader(std::span<const std::uint8_t> bytes, const std::string& name, MeshParts parts)
         : name_(name),
           parts_(parts),
+          size_(bytes.size()),
           // Bytes that are not compressed become numbers of at most eight times their size.
           most_memory_(std::max<std::uint64_t>(most_decoded_bytes, sizeof(double) * bytes.size())),
           memory_left_(most_memory_) {
@@ -136,14 +140,24 @@ public:
         const auto point_count = base::parse_integer(stated);
         if (!point_count || *point_count < 0)
             fail(fmt::format("NumberOfPoints is {}; it must be a whole number", base::in_quotes(stated)));
+        if (static_cast<std::uint64_t>(*point_count) >
+            (free_point_bytes + point_bytes_per_byte * size_) / sizeof(geometry::Point))
+            fail(
+                fmt::format("NumberOfPoints is {}, more than {} bytes should hold; thin the points out, or save them "
+                            "without compression",
+                            *point_count, size_));
         const auto points = read_array(piece.child("Points").child("DataArray"), "Points", *point_count);
         if (points.components != 3) fail(fmt::format("Points have {} components, not 3", points.components));
         for (std::size_t i = 0; i < points.tuples(); ++i)
             mesh.vertices_mm.emplace_back(points.values[3 * i], points.values[3 * i + 1], points.values[3 * i + 2]);
+        read_frame(data.child("FieldData"), file);
         read_polygons(piece.child("Polys"), mesh);
         read_strips(piece.child("Strips"), mesh);
         read_point_data(piece.child("PointData"), mesh);
-        read_corner_texture(data.child("FieldData"), mesh);
+        read_corner_texture(data.child("FieldData"), file);
+        if (small_cells_ > 0)
+            file.remarks.push_back(
+                fmt::format("{}: {} faces have fewer than 3 corners; they are left out", name_, small_cells_));
         return file;
     }
 
@@ -260,7 +274,8 @@ private:
         if (!node) fail(fmt::format("array {} is missing", base::in_quotes(what)));
         Values array;
         array.name = node.attribute("Name").value();
-        const auto type = parse_type(node.attribute("type").value());
+        auto type = parse_type(node.attribute("type").value());
+        if (std::string_view(node.attribute("type").value()) == "String") type = Scalar::uint8;
         if (!type)
             fail(fmt::format("array {}: type is {}, which is not read", base::in_quotes(what),
                              base::in_quotes(node.attribute("type").value())));
@@ -278,7 +293,7 @@ private:
             while (lines.next()) {
                 std::string_view rest = lines.line();
                 for (auto text = base::next_word(rest); !text.empty(); text = base::next_word(rest)) {
-                    const auto value = base::parse_double(text);
+                    const auto value = base::parse_double_or_nan(text);
                     if (!value)
                         fail(fmt::format("array {}: value {} is {}, not a number", base::in_quotes(what),
                                          array.values.size(), base::in_quotes(text)));
@@ -343,8 +358,26 @@ private:
                 cell.push_back(static_cast<std::uint32_t>(corner));
             }
             if (cell.size() < 3)
-                fail(fmt::format("{}: cell {} has {} corners; a face needs at least 3", cells.name(), c, cell.size()));
-            add(cell);
+                ++small_cells_;
+            else
+                add(cell);
+        }
+    }
+
+    /// Slicer's field data "SPACE": a text, as the codes of its bytes.
+    void read_frame(const pugi::xml_node& data, MeshFile& file) {
+        for (const auto node : data.children()) {
+            if (!base::equal_ignoring_case(node.attribute("Name").value(), "SPACE")) continue;
+            if (std::string_view(node.attribute("type").value()) != "String") continue;
+            std::string text = "SPACE=";
+            const auto codes = read_array(node, "SPACE");
+            for (const double code : codes.values)
+                if (code > 0 && code < 128) text += static_cast<char>(code);
+            try {
+                file.frame = frame_in_comment(text);
+            } catch (const InputError& e) {
+                fail(e.what());
+            }
         }
     }
 
@@ -370,31 +403,42 @@ private:
             if (array_name == "Normals" || (!normals_name.empty() && array_name == normals_name)) continue;
             if (!parse_type(node.attribute("type").value())) continue;  // text, bits: no numbers per vertex
             const bool texture = array_name == texture_array || (!texture_name.empty() && array_name == texture_name);
-            if (parts_ == MeshParts::without_attributes && !texture &&
-                !base::equal_ignoring_case(array_name, colour_array))
-                continue;
+            const bool colour =
+                base::equal_ignoring_case(array_name, colour_array) || base::equal_ignoring_case(array_name, "RGBA");
+            if (parts_ == MeshParts::without_attributes && !texture && !colour) continue;
             auto array = read_array(node, std::string(array_name), static_cast<std::int64_t>(n));
             if (texture && array.components >= 2 && mesh.texture_coordinates.empty()) {
                 for (std::size_t i = 0; i < n; ++i) {
                     const auto at = i * static_cast<std::size_t>(array.components);
                     mesh.texture_coordinates.emplace_back(array.values[at], array.values[at + 1]);
                 }
-            } else if (base::equal_ignoring_case(array_name, colour_array) && array.type == Scalar::uint8 &&
-                       array.components == 3 && mesh.colours.empty()) {
+            } else if (colour && (array.components == 3 || array.components == 4) && mesh.colours.empty()) {
+                const auto step = static_cast<std::size_t>(array.components);
+                double largest = 0;
+                for (std::size_t k = 0; k < array.values.size(); ++k)
+                    if (k % step < 3) largest = std::max(largest, array.values[k]);
+                const bool whole = array.type != Scalar::float32 && array.type != Scalar::float64;
+                const double scale = colour_scale(largest, whole);
                 for (std::size_t i = 0; i < n; ++i)
-                    mesh.colours.push_back({colour_byte(array.values[3 * i], 1),
-                                            colour_byte(array.values[3 * i + 1], 1),
-                                            colour_byte(array.values[3 * i + 2], 1)});
+                    mesh.colours.push_back({colour_byte(array.values[step * i], scale),
+                                            colour_byte(array.values[step * i + 1], scale),
+                                            colour_byte(array.values[step * i + 2], scale)});
             } else {
                 mesh.attributes.push_back({std::move(array.name), array.components, std::move(array.values)});
             }
         }
     }
 
-    void read_corner_texture(const pugi::xml_node& data, Mesh& mesh) {
+    void read_corner_texture(const pugi::xml_node& data, MeshFile& file) {
+        auto& mesh = file.mesh;
         const auto positions = cell_array(data, texture_array.data()),
                    corners = cell_array(data, texture_corner_array.data());
         if (positions.values.empty() || corners.values.empty()) return;
+        if (small_cells_ > 0) {
+            file.remarks.push_back(fmt::format(
+                "{}: texture positions per corner are left out, since faces of fewer than 3 corners are", name_));
+            return;
+        }
         if (positions.components != 2 || corners.values.size() != mesh.faces.corners.size())
             fail(fmt::format("FieldData: {} texture corners of {} components for {} face corners",
                              corners.values.size(), positions.components, mesh.faces.corners.size()));
@@ -411,10 +455,12 @@ private:
 
     std::string name_;
     MeshParts parts_;
+    std::uint64_t size_;         ///< of the file in bytes
     std::uint64_t most_memory_;  ///< that all arrays may take
     std::uint64_t memory_left_;  ///< for the arrays still to be read
     std::shared_ptr<const pugi::xml_document> document_;
     std::span<const std::uint8_t> appended_;
+    std::size_t small_cells_ = 0;
     bool appended_is_raw_ = false, swap_ = false, wide_header_ = false, compressed_ = false;
 };
 
@@ -477,7 +523,22 @@ MeshFile decode_vtp(std::span<const std::uint8_t> bytes, const std::string& name
     return VtpReader(bytes, name, parts).read();
 }
 
-void encode_vtp(std::ostream& out, const Mesh& mesh, const MadeBy& made_by) {
+std::vector<std::string> vtp_attribute_names(const Mesh& mesh) {
+    std::set<std::string> taken = {std::string(texture_array), std::string(colour_array), "RGBA", "Normals"};
+    std::vector<std::string> names;
+    for (const auto& attribute : mesh.attributes) {
+        auto stem = attribute.name;
+        for (char& c : stem)
+            if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+        if (stem.empty()) stem = "unnamed";
+        auto name = stem;
+        for (int number = 2; !taken.insert(name).second; ++number) name = fmt::format("{}_{}", stem, number);
+        names.push_back(std::move(name));
+    }
+    return names;
+}
+
+void encode_vtp(std::ostream& out, const Mesh& mesh, const MadeBy& made_by, std::optional<BodyFrame> frame) {
     const auto n = mesh.vertices_mm.size();
     const bool corner_texture = !mesh.faces.texture_corners.empty();
     const bool vertex_texture = !mesh.texture_coordinates.empty() && !corner_texture;
@@ -487,7 +548,9 @@ void encode_vtp(std::ostream& out, const Mesh& mesh, const MadeBy& made_by) {
     xml =
         "<?xml version=\"1.0\"?>\n<!-- lengths in millimetres -->\n"
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n";
-    if (corner_texture || !made_by.empty()) xml += "<FieldData>\n";
+    const bool field_data = corner_texture || frame || !made_by.empty();
+    if (field_data) xml += "<FieldData>\n";
+    if (frame) xml += string_array("SPACE", to_string(*frame));
     for (const auto& [key, value] : made_by) xml += string_array(key, value);
     if (corner_texture) {
         arrays.add<double>(texture_array, "Float64", 2, flattened(mesh.texture_coordinates),
@@ -495,7 +558,7 @@ void encode_vtp(std::ostream& out, const Mesh& mesh, const MadeBy& made_by) {
         arrays.add<std::int64_t>(texture_corner_array, "Int64", 1, mesh.faces.texture_corners,
                                  mesh.faces.texture_corners.size());
     }
-    if (corner_texture || !made_by.empty()) xml += "</FieldData>\n";
+    if (field_data) xml += "</FieldData>\n";
     xml += fmt::format(
         "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
         "NumberOfPolys=\"{}\">\n",
@@ -507,8 +570,9 @@ void encode_vtp(std::ostream& out, const Mesh& mesh, const MadeBy& made_by) {
         for (const auto& c : mesh.colours) channels.insert(channels.end(), c.begin(), c.end());
         arrays.add<std::uint8_t>(colour_array, "UInt8", 3, channels);
     }
-    for (const auto& attribute : mesh.attributes)
-        arrays.add<double>(attribute.name, "Float64", attribute.components, attribute.values);
+    const auto names = vtp_attribute_names(mesh);
+    for (std::size_t k = 0; k < names.size(); ++k)
+        arrays.add<double>(names[k], "Float64", mesh.attributes[k].components, mesh.attributes[k].values);
     xml += "</PointData>\n<Points>\n";
     arrays.add<double>("Points", "Float64", 3, flattened(mesh.vertices_mm));
     xml += "</Points>\n";

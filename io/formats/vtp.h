@@ -15,6 +15,9 @@ namespace mimik::io::formats {
 
 /// Appended raw arrays in double precision, which VTK and ParaView open. Texture positions per corner, which VTK has no
 /// place for, go into field data, and so does `made_by`, a string array of one value for each of its names.
-void encode_vtp(std::ostream& out, const geometry::Mesh& mesh, const MadeBy& made_by = {});
+void encode_vtp(std::ostream& out, const geometry::Mesh& mesh, const MadeBy& made_by = {},
+                std::optional<BodyFrame> frame = {});
+/// What the attributes are called in the file: a name that stands for something else, or twice, gets a number.
+[[nodiscard]] std::vector<std::string> vtp_attribute_names(const geometry::Mesh& mesh);
 
 }  // namespace mimik::io::formats

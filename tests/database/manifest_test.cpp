@@ -92,6 +92,26 @@ TEST(Manifest, paths_that_leave_the_folder_are_refused_with_line_and_value) {
                 HasSubstr("landmarks '../b.pp' leads out"));
 }
 
+TEST(Manifest, from_windows_has_backslashes_semicolons_and_a_row_without_content) {
+    for (const char* text : {"subject,expression,scan,landmarks\nA,N,a\\1.ply,a\\1.csv\n,,,\n",
+                             "subject;expression;scan;landmarks\r\nA;N;a\\1.ply;a\\1.csv\r\n;;;\r\n",
+                             "sep=\t\nsubject\texpression\tscan\tlandmarks\t\nA\tN\ta/1.ply\ta/1.csv\t\n\t\t\t\n"}) {
+        const auto manifest = parse_manifest(text, "/data/manifest.csv");
+        ASSERT_EQ(manifest.scans.size(), 1U) << text;
+        EXPECT_EQ(manifest.scans[0].scan_file, "/data/a/1.ply") << text;
+        EXPECT_EQ(manifest.scans[0].landmarks_file, "/data/a/1.csv") << text;
+    }
+    for (const char* scan : {"C:\\faces\\a.ply", "C:/faces/a.ply", "..\\a.ply", "\\\\server\\a.ply"})
+        EXPECT_THAT(manifest_error("subject,expression,scan\nA,N," + std::string(scan) + "\n"), HasSubstr("leads out"))
+            << scan;
+}
+
+TEST(Manifest, of_more_rows_than_memory_should_hold_is_refused) {
+    std::string text = "subject,expression,scan\n";
+    for (int row = 0; row <= 200'000; ++row) text += "a,N,b\n";
+    EXPECT_THAT(manifest_error(text), HasSubstr("more than 200000 scans; split the database"));
+}
+
 TEST(Manifest, bad_fields_are_named_with_line_and_value) {
     EXPECT_THAT(manifest_error("subject,scan\nA,a.ply\n"), HasSubstr("expression"));
     EXPECT_THAT(manifest_error("subject,expression,scan\nA,,a.ply\n"), HasSubstr("line 2: expression is empty"));

@@ -83,6 +83,23 @@ TEST(ScanDatabase, files_that_fit_no_pattern_are_remarked_not_lost) {
     EXPECT_THAT(database.remarks, Contains(HasSubstr("lies in the folder 'other' though its subject is 'bs009'")));
 }
 
+TEST(ScanDatabase, what_a_mac_leaves_beside_files_is_passed_over) {
+    const TemporaryFolder folder;
+    write_scan(folder.path(), "bs000_N_N_0", make_face());
+    const auto before = open_database(folder.path());
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "bs000"))
+        if (!entry.path().filename().string().starts_with("._"))
+            base::write_atomically(folder.path() / "bs000" / ("._" + entry.path().filename().string()),
+                                   std::string("\0\5\x16\7", 4));
+    base::write_atomically(folder.path() / "._bs000", "x");
+    base::write_atomically(folder.path() / ".DS_Store", "x");
+    base::write_atomically(folder.path() / "__MACOSX/bs000/._bs000_N_N_0.bnt", "x");
+    const auto after = open_database(folder.path());
+    EXPECT_THAT(names_of(after), ElementsAre("bs000_N_N_0"));
+    EXPECT_EQ(after.remarks, before.remarks);
+    EXPECT_EQ(after.scans[0].scan_file, before.scans[0].scan_file);
+}
+
 TEST(ScanDatabase, a_missing_or_empty_folder_is_refused_by_name) {
     const TemporaryFolder folder;
     EXPECT_THAT(message_of<InputError>([&] { (void)open_database(folder.path() / "none"); }),

@@ -1,5 +1,6 @@
 #include <sstream>
 
+#include "geometry/polygon_triangles.h"
 #include "io/formats/bytes.h"
 #include "io/formats/obj.h"
 #include "io/formats/ply.h"
@@ -64,7 +65,8 @@ void check_sound(const Mesh& mesh) {
             attribute.components > 0 && attribute.values.size() == n * static_cast<std::size_t>(attribute.components),
             "attributes cover the vertices");
     for (const auto& p : mesh.vertices_mm) require(format == MeshFormat::pcd || p.allFinite(), "positions are finite");
-    (void)triangulate(mesh.faces);
+    const auto triangles = triangulate(mesh.faces, mesh.vertices_mm);
+    require(triangles.size() + 2 * mesh.faces.size() == mesh.faces.corners.size(), "n corners give n - 2 triangles");
 }
 
 }  // namespace
@@ -96,6 +98,18 @@ std::vector<std::string> seeds() {
     files.push_back(encoded(mesh, false));
     mesh.faces.texture_corners = {0, 1, 2, 3, 4, 4, 4};
     files.push_back(encoded(mesh, true));
+    if (format == MeshFormat::ply)
+        files.emplace_back(
+            "ply\rformat ascii 1.0\rcomment SPACE=RAS\relement vertex 4\rproperty float x\rproperty float y\rproperty "
+            "float "
+            "z\rproperty ushort red\rproperty ushort green\rproperty ushort blue\relement tristrips 1\rproperty list "
+            "int int "
+            "vertex_indices\rend_header\r0 0 0 1 2 3\r1 0 0 4 5 6\r0 1 0 7 8 9\r1 1 0 1 2 65535\r6 0 1 2 3 -1 0\r");
+    if (format == MeshFormat::stl)
+        files.emplace_back(
+            "solid a facet normal 1.#QNAN 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 end loop endfacet "
+            "endsolid a "
+            "solid b # SPACE=LPS\nFACET\nOUTER LOOP\n");
     if (format == MeshFormat::ply)
         files.emplace_back("ply\nformat binary_little_endian 1.0\nelement vertex 1000000000000\nend_header\n");
     if (format == MeshFormat::vtp)

@@ -50,7 +50,7 @@ TEST(LandmarkFiles, every_format_gives_names_order_and_doubles_back) {
 
 TEST(LandmarkFiles, an_unknown_extension_is_refused_with_those_there_are) {
     EXPECT_THAT(message_of([] { (void)landmark_format("a.json"); }),
-                HasSubstr("there are .csv, .pp, .fcsv, .mrk.json and .lm3"));
+                HasSubstr("there are .csv, .tsv, .pp, .fcsv, .mrk.json, .lm3, .ljson and .lan"));
     EXPECT_EQ(landmark_format("A.MRK.JSON"), LandmarkFormat::mrk_json);
 }
 
@@ -81,8 +81,9 @@ TEST(LandmarkCsv, columns_are_found_by_name_and_comments_and_quotes_understood) 
 
 TEST(LandmarkCsv, errors_name_line_column_and_value) {
     EXPECT_THAT(refused(LandmarkFormat::csv, ""), HasSubstr("marks: the file is empty"));
-    EXPECT_THAT(refused(LandmarkFormat::csv, "name;x;y;z\nchin;1;2;3\n"),
-                HasSubstr("column 'name' is missing from the header line; it has 'name;x;y;z'"));
+    EXPECT_THAT(refused(LandmarkFormat::csv, "mark;x;y;z\nchin;1;2;3\n"),
+                HasSubstr("column 'name' is missing from the header line; it has 'mark', 'x', 'y', 'z' (separated by "
+                          "semicolons)"));
     EXPECT_THAT(refused(LandmarkFormat::csv, "name,x,y,z,X\n"), HasSubstr("column 'x' appears twice"));
     EXPECT_THAT(refused(LandmarkFormat::csv, "name,x,y,z\nchin,1,2\n"),
                 HasSubstr("marks: line 2: 3 fields where the header names 4 columns"));
@@ -162,8 +163,8 @@ TEST(Slicer, fcsv_labels_are_the_twelfth_field_and_fall_back_to_the_id) {
     const auto marks = decode(LandmarkFormat::fcsv, fcsv_head +
                                                         "vtk_0,1,2,3,0,0,0,1,1,1,0,chin,,vtkMRML\n"
                                                         "vtk_1,4,5,6,0,0,0,1,1,1,0,,,\n");
-    EXPECT_EQ(marks.at("chin").position_mm, Point(1, 2, 3));
-    EXPECT_EQ(marks.at("vtk_1").position_mm, Point(4, 5, 6));
+    EXPECT_EQ(marks.at("chin").position_mm, Point(-1, -2, 3));  // the file says RAS
+    EXPECT_EQ(marks.at("vtk_1").position_mm, Point(-4, -5, 6));
 }
 
 TEST(Slicer, the_frame_that_lies_on_the_mesh_is_taken) {

@@ -60,8 +60,10 @@ TEST(Stl, a_binary_file_that_begins_with_solid_is_known_by_its_size) {
     append(text, std::uint16_t{7});
     EXPECT_EQ(decode(MeshFormat::stl, text).mesh.vertices_mm.size(), 3U);
     text[0] = 'X';
-    EXPECT_THAT(refused(MeshFormat::stl, text + "x"),
-                HasSubstr("scan: has 135 bytes, but the 1 triangles of its header (byte 80) need 134"));
+    EXPECT_THAT(decode(MeshFormat::stl, text + "xyz").remarks,
+                ElementsAre("scan: 3 bytes behind the last triangle are passed over"));
+    EXPECT_THAT(refused(MeshFormat::stl, text.substr(0, 133)),
+                HasSubstr("scan: has 133 bytes, but the 1 triangles of its header (byte 80) need 134"));
     text[80] = text[81] = text[82] = text[83] = '\xFF';
     EXPECT_THAT(refused(MeshFormat::stl, text),
                 HasSubstr("the 4294967295 triangles of its header (byte 80) need 214748364834"));
