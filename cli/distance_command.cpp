@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/output_folder.h"
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
@@ -136,7 +137,8 @@ void run(const Request& request) {
         remarks.push_back(
             fmt::format("{}: {} vertices belong to no face and count all the same", request.test.string(), loose));
     if (!request.output.empty())
-        write_distances(request.output, std::move(test), test_file.frame, distance.test_to_reference, remarks);
+        write_distances(base::where_links_lead(request.output), std::move(test), test_file.frame,
+                        distance.test_to_reference, remarks);
     if (!request.common.quiet)
         for (const auto& remark : remarks) say_note(remark);
     if (request.common.json) {

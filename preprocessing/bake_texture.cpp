@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/polygon_triangles.h"
 #include "geometry/surface_index.h"
 
 namespace mimik::preprocessing {
@@ -113,13 +114,15 @@ public:
         geometry::Faces numbered;
         numbered.first = faces.first;
         std::vector<std::uint32_t> face_of_corner;
+        std::vector<Point> corner_points_mm;
         for (std::uint32_t f = 0; f < faces.size(); ++f)
             for (auto k = faces.first[f]; k < faces.first[f + 1]; ++k) {
                 numbered.corners.push_back(k);
                 face_of_corner.push_back(f);
+                corner_points_mm.push_back(charts.points_mm[faces.corners[k]]);
             }
         std::vector<Triangle> triangles;
-        for (const auto& t : geometry::triangulate(numbered)) {
+        for (const auto& t : geometry::triangulate(numbered, corner_points_mm)) {
             triangles.push_back({faces.corners[t[0]], faces.corners[t[1]], faces.corners[t[2]]});
             ChartTriangle chart;
             chart.image = charts.image_of_face.empty() ? 0 : charts.image_of_face[face_of_corner[t[0]]];
