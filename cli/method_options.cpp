@@ -1,6 +1,7 @@
 #include "cli/method_options.h"
 
 #include <filesystem>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,18 +15,6 @@ namespace mimik::cli {
 
 geometry::SplineKernel kernel_by_name(const std::string& name) {
     return name == "r" ? geometry::SplineKernel::r : geometry::SplineKernel::r2_log_r2;
-}
-
-std::vector<facs::Expression> expressions_named(const facs::FacsCatalogue& catalogue, const std::string& option,
-                                                const std::vector<std::string>& typed) {
-    std::vector<facs::Expression> expressions;
-    std::vector<std::string> codes;
-    for (const auto& text : typed) {
-        expressions.push_back(catalogue.expression(text));
-        codes.push_back(expressions.back().code());
-    }
-    refuse_doubles(option, codes);
-    return expressions;
 }
 
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -14,12 +13,6 @@ namespace mimik::cli {
 
 /// Of --kernel, which the parser has found to be r or r2logr.
 [[nodiscard]] geometry::SplineKernel kernel_by_name(const std::string& name);
-
-/// Expressions as they were typed, each once. @throws InputError naming the option and the first that stands twice, or
-/// as FacsCatalogue::expression.
-[[nodiscard]] std::vector<facs::Expression> expressions_named(const facs::FacsCatalogue& catalogue,
-                                                              const std::string& option,
-                                                              const std::vector<std::string>& typed);
 
 /// --method thesis|default and the single switches that differ from it; shared by the commands that model and animate.
 struct MethodArguments {
