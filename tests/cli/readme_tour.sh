@@ -34,6 +34,13 @@ while read -r line; do
 done <<<"$tour"
 claim "the tour of README.md runs as it is printed"
 
+reproduce=$(dirname "$readme")/scripts/reproduce.sh
+grep -q '^out=$PWD/out/reproduce$' "$reproduce" && grep -q '"$mimik" synthesize "$out/database"' "$reproduce"
+grep -q '^mimik=$PWD/build/release/bin/mimik$' "$reproduce" && grep -q '^export PATH=$PWD/build/release/bin:$PATH$' "$readme"
+grep -q '^ln -s out/reproduce/database DB$' "$readme" || fail "the tour's database is not that of reproduce.sh"
+tail -n 2 "$reproduce" | grep -q 'Database: %s  Program: %s' || fail "the last line of reproduce.sh names no database or no program"
+claim "the tour starts from what reproduce.sh leaves, and that script's last line names the database and the program"
+
 for way in bs003_on_bs007 bs007_on_bs003; do
   [ -d "../AU12_${way}_default" ] || (cd ../.. && mimik panels WORK --source bs007 --target bs003 --au 12 -o figures --quiet >/dev/null) || [ "$can_draw" = no ]
   cd "../AU12_${way}_default"
