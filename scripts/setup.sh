@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# setup.sh [--check] [--bench]: installs the Debian 12 packages that Mimik is built and run with; does nothing where they
-# are there. --check adds what scripts/check.sh needs (clang tools), --bench what scripts/bench.sh compares with. Needs
-# root or sudo to install.
+# setup.sh [--check] [--bench] [--adapters]: installs the Debian 12 packages that Mimik is built and run with; does
+# nothing where they are there. --check adds what scripts/check.sh needs (clang tools), --bench what scripts/bench.sh
+# compares with, --adapters the two libraries of adapters/ that nothing else needs. Needs root or sudo to install.
 set -euo pipefail
 
 packages=(
@@ -21,7 +21,8 @@ for option in "$@"; do
   case "$option" in
     --check) packages+=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev llvm-14) ;;
     --bench) packages+=(libbenchmark-dev libpcl-dev python3-numpy python3-scipy) ;;
-    *) echo "setup.sh: there is no option '$option'; there are --check and --bench" >&2; exit 2 ;;
+    --adapters) packages+=(libpcl-dev libopencv-dev) ;;
+    *) echo "setup.sh: there is no option '$option'; there are --check, --bench and --adapters" >&2; exit 2 ;;
   esac
 done
 

@@ -1,0 +1,26 @@
+# The libraries that the headers of adapters/ include. The build of Mimik looks for them for the tests alone, and does
+# without those that are missing; find_package(mimik COMPONENTS adapters_pcl) needs the one that it names.
+set(MIMIK_ADAPTERS cgal opencv pcl vtk)
+
+# mimik_adapter_library(pcl library): the targets to link, or nothing if the library is not installed.
+function(mimik_adapter_library package result)
+  if(package STREQUAL "cgal")
+    find_package(CGAL 5.5 CONFIG QUIET)
+    set(targets CGAL::CGAL)
+  elseif(package STREQUAL "opencv")
+    find_package(OpenCV 4.6 CONFIG QUIET COMPONENTS core)
+    set(targets opencv_core)
+  elseif(package STREQUAL "pcl")
+    find_package(PCL 1.13 CONFIG QUIET COMPONENTS common)
+    set(targets pcl_common)
+  elseif(package STREQUAL "vtk")
+    find_package(VTK 9.1 CONFIG QUIET COMPONENTS CommonCore CommonDataModel)
+    set(targets VTK::CommonCore VTK::CommonDataModel)
+  endif()
+  foreach(target IN LISTS targets)
+    if(NOT TARGET ${target})
+      set(targets)
+    endif()
+  endforeach()
+  set(${result} ${targets} PARENT_SCOPE)
+endfunction()
