@@ -74,7 +74,17 @@ bool asks_for_json(const std::vector<std::string>& words) {
     return std::find(words.begin(), end, "--json") != end;
 }
 
+void refuse_workspace(const std::filesystem::path& database) {
+    std::error_code ignored;
+    if (std::filesystem::exists(database / "workspace.json", ignored) &&
+        !std::filesystem::exists(database / "manifest.csv", ignored))
+        throw InputError(fmt::format(
+            "{}: is a workspace that 'mimik preprocess' made; give the database of scans that it was made of",
+            database.string()));
+}
+
 std::string with_file(const std::vector<std::filesystem::path>& files, std::string_view message) {
+    if (message.starts_with("--")) return std::string(message);  // of an option, not of a file
     for (const auto& file : files)
         if (!file.empty() && message.find(file.string()) != std::string_view::npos) return std::string(message);
     if (files.empty() || files.front().empty()) return std::string(message);

@@ -17,6 +17,9 @@ namespace mimik::cli {
 /// Whether --json stands among the words of a command line.
 [[nodiscard]] bool asks_for_json(const std::vector<std::string>& words);
 
+/// Who gives a workspace where a database belongs is told so. @throws InputError
+void refuse_workspace(const std::filesystem::path& database);
+
 /// "file: message" with the first of the files, unless the message has one of them.
 [[nodiscard]] std::string with_file(const std::vector<std::filesystem::path>& files, std::string_view message);
 

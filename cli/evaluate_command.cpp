@@ -4,7 +4,6 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
@@ -56,7 +55,9 @@ int run(Arguments& arguments) {
     options.reference = !arguments.no_reference;
     options.whole_face = !arguments.no_whole_face;
     const evaluation::PerformanceReader reader(workspace);
-    const auto plan = evaluation::plan_experiment(workspace, catalogue, options, reader.has_truth());
+    evaluation::ExperimentPlan plan;
+    check_by_option({{"max_sources", "--max-sources"}},
+                    [&] { plan = evaluation::plan_experiment(workspace, catalogue, options, reader.has_truth()); });
     const std::filesystem::path folder =
         arguments.output.empty() ? workspace.root() / "scores" : std::filesystem::path(arguments.output);
     check_output_folder(folder, arguments.dry_run);
@@ -78,12 +79,12 @@ int run(Arguments& arguments) {
     return report.failures.empty() ? exit_done : exit_done_with_failures;
 }
 
-/// "thesis, default, mean, ...": the methods that a user may ask for.
-std::string method_names() {
+/// The methods that a user may ask for.
+std::vector<std::string> method_names() {
     std::vector<std::string> names;
     for (const auto& method : animation::known_methods())
         if (method->name() != evaluation::baseline_method) names.push_back(method->name());
-    return fmt::format("{}", fmt::join(names, ", "));
+    return names;
 }
 
 }  // namespace
@@ -94,9 +95,9 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     auto& options = arguments->options;
     command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command
-        ->add_option("--method", arguments->methods,
-                     "Methods to score (mean is --source mean of the other commands): " + method_names())
+        ->add_option("--method", arguments->methods, "Methods to score (mean is --source mean of the other commands)")
         ->delimiter(',')
+        ->check(CLI::IsMember(method_names()))
         ->capture_default_str();
     for (const auto& expression : evaluation::ExperimentOptions::thesis_expressions())
         arguments->expressions.push_back(expression.code());

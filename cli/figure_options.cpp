@@ -32,7 +32,9 @@ void add_figure_options(CLI::App& command, FigureArguments& arguments) {
             ->allow_extra_args(false),
         command.add_option("--scalar", given.scalar, "Colour by this attribute of the meshes"),
         command.add_option("--range", given.range, "Values at the ends of the colours")->expected(2),
-        command.add_option("--colour-map", given.colour_map, "sequential or diverging")->capture_default_str(),
+        command.add_option("--colour-map", given.colour_map, "Of --scalar")
+            ->check(CLI::IsMember({"sequential", "diverging"}))
+            ->capture_default_str(),
         command.add_option("--label", given.label, "Text of the colour bar, with the unit"),
         command.add_option("--title", page.title, "Text above the panels"),
         command.add_option("--columns", page.columns, "Panels in a row; 0 = chosen")->capture_default_str(),
@@ -41,6 +43,7 @@ void add_figure_options(CLI::App& command, FigureArguments& arguments) {
         command.add_option("--font-size", page.font_size_px, "Of captions, in pixels")->capture_default_str(),
         command
             .add_option("--framing", arguments.framing, "own: each panel centred on its face; common: all on one point")
+            ->check(CLI::IsMember({"own", "common"}))
             ->capture_default_str(),
         command.add_option("--height-mm", page.height_mm, "Height of a panel in mm; without: every face whole"),
         command.add_option("--scale-bar-mm", page.scale_bar_mm,

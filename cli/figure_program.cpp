@@ -15,6 +15,7 @@
 #include "cli/command.h"
 #include "cli/error_report.h"
 #include "cli/figure_options.h"
+#include "cli/notes.h"
 #include "cli/terminal.h"
 #include "io/json_values.h"
 #include "report/figure_description.h"
@@ -73,22 +74,39 @@ void parse_size(const std::string& text, figures::Figure& page) {
     page.panel_height_px = static_cast<int>(height);
 }
 
-void draw(const report::FigureDescription& description, const std::string& output, const Common& common) {
+/// A fault of the page names the option that sets it, or the description that does.
+io::Image render(const figures::Figure& figure, const std::string& description) {
+    if (!description.empty()) return naming(description, [&] { return figures::render(figure); });
+    io::Image image;
+    check_by_option({{"columns", "--columns"},
+                     {"panel_width_px", "--size"},
+                     {"panel_height_px", "--size"},
+                     {"font_size_px", "--font-size"},
+                     {"height_mm", "--height-mm"},
+                     {"scale_bar_mm", "--scale-bar-mm"},
+                     {"supersampling", "--supersampling"}},
+                    [&] { image = figures::render(figure); });
+    return image;
+}
+
+void draw(const FigureArguments& arguments) {
+    const auto& output = arguments.output;
     if (!base::equal_ignoring_case(std::filesystem::path(output).extension().string(), ".png"))
         throw InputError(fmt::format("--output is '{}'; figures are written as .png", output));
-    const auto figure = report::load_figure(description);
-    if (!common.quiet)
-        for (const auto& remark : figure.remarks) std::cerr << "note: " << remark << '\n';
-    const auto image = figures::render(figure);
+    std::vector<std::filesystem::path> inputs(arguments.given.meshes.begin(), arguments.given.meshes.end());
+    if (!arguments.file.empty()) inputs = {arguments.file};
+    const auto figure = naming_any(inputs, [&] { return report::load_figure(arguments.description); });
+    if (!arguments.common.quiet) say_notes(figure.remarks);
+    const auto image = render(figure, arguments.file);
     io::write_png(base::where_links_lead(output), image);
-    if (common.json)
+    if (arguments.common.json)
         std::cout << io::json_text(nlohmann::ordered_json{{"schema", 1},
                                                           {"output", output},
                                                           {"width_px", image.width},
                                                           {"height_px", image.height},
                                                           {"panels", figure.panels.size()},
                                                           {"drawn_with", figures::drawing_route()}});
-    else if (!common.quiet)
+    else if (!arguments.common.quiet)
         std::cout << fmt::format("{}: {} x {} pixels, {} panels\n", output, image.width, image.height,
                                  figure.panels.size());
 }
@@ -109,9 +127,7 @@ int run_figure(int argc, char** argv) {
             arguments.description =
                 naming(arguments.file, [&] { return report::read_figure_description(arguments.file); });
         }
-        const auto& inputs = arguments.file.empty() ? arguments.given.meshes : std::vector{arguments.file};
-        naming(inputs.size() == 1 ? inputs.front() : std::string(),
-               [&] { draw(arguments.description, arguments.output, arguments.common); });
+        draw(arguments);
     });
     return run(app, argc, argv, exit_done);
 }

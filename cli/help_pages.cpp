@@ -27,7 +27,7 @@ std::vector<std::string> choices_of(const std::string& type) {
 }
 
 std::string value_word(const CLI::Option& option, const std::vector<std::string>& choices) {
-    if (option.get_type_size() == 0) return {};
+    if (option.get_items_expected_max() == 0) return {};  // a flag
     if (!choices.empty()) return fmt::format("{}", fmt::join(choices, "|"));
     const auto type = option.get_type_name();
     auto word = type.starts_with("FLOAT") ? "X" : type.starts_with("INT") || type.starts_with("UINT") ? "N" : "TEXT";
@@ -144,7 +144,7 @@ std::string help_text(const CommandPage& page, bool colours) {
         for (const auto& option : page.options)
             if (option.group == group) text += listed(names_of(option), words_of(option));
     }
-    if (!page.footer.empty()) text += '\n' + page.footer + '\n';
+    if (!page.footer.empty()) text += '\n' + wrapped(page.footer, 0, 0) + '\n';
     return text;
 }
 

@@ -73,7 +73,7 @@ void make_strict(CLI::Option& option) {
         check = CLI::Validator([=](std::string& text) { return plain_output(name, text); }, "");
     else if (const auto choices = page_of(option).choices; !choices.empty())
         check = CLI::Validator([=](std::string& text) { return strict_choice(name, choices, text); }, "");
-    else if (option.get_type_size() == 0)
+    else if (option.get_items_expected_max() == 0)
         return;
     else if (type.starts_with("FLOAT"))
         check = CLI::Validator([=](std::string& text) { return strict_real(name, text); }, "");

@@ -14,6 +14,7 @@
 #include "base/folder_lock.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/error_report.h"
 #include "cli/figure_start.h"
 #include "cli/notes.h"
 #include "cli/terminal.h"
@@ -132,7 +133,16 @@ void print_way_out(const preprocessing::PreprocessReport& report) {
                              kinds.contains("unit") ? ", give their unit with --unit" : "", fmt::join(kinds, ","));
 }
 
+void check_size(const char* option, int lines) {
+    constexpr int least = 2, most = 20'000;
+    if (lines < least || lines > most)
+        throw InputError(fmt::format("{} is {}; give {} to {}", option, lines, least, most));
+}
+
 int run(Arguments& arguments) {
+    refuse_workspace(arguments.database);
+    check_size("--rows", arguments.options.steps.gridding.rows);
+    check_size("--cols", arguments.options.steps.gridding.cols);
     arguments.options.expressions = parsed_expressions(arguments.expressions);
     const auto database = database::open_database(arguments.database, io::parse_length_unit(arguments.unit));
     check_by_option({{"spike_mm", "--spike-mm"},

@@ -17,6 +17,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/error_report.h"
 #include "cli/notes.h"
 #include "cli/terminal.h"
 #include "database/scan_index.h"
@@ -286,6 +287,7 @@ int run(Request& request) {
     check_by_option(
         {{"max_hole_mm", "--max-hole-mm"}, {"spike_mm", "--spike-mm"}, {"landmark_off_scan_mm", "--landmark-off-mm"}},
         [&] { request.index.doctor.check(); });
+    refuse_workspace(request.root);
     const auto database = open_database(request.root);
     const auto scans = select(database, request.selection);
     ScanIndexResult result;

@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/error_report.h"
 #include "cli/method_options.h"
+#include "cli/notes.h"
 #include "database/hidden_subjects.h"
 #include "io/json_values.h"
 #include "io/warp_file.h"
@@ -30,6 +31,7 @@ int run_warp(const WarpArguments& arguments) {
     refuse_range_scan(arguments.input);
     auto options = arguments.options;
     options.kernel = kernel_by_name(arguments.kernel);
+    check_by_option({{"smoothing", "--smoothing"}}, [&] { options.check(); });
     io::WarpFileOptions more;
     more.pair_by = arguments.pair_by == "order" ? io::PairBy::order : io::PairBy::name;
     if (!arguments.frame.empty()) more.input_frame = io::parse_body_frame(arguments.frame);
@@ -55,7 +57,7 @@ int run_warp(const WarpArguments& arguments) {
                                                   {"bending_energy", report.bending_energy},
                                                   {"remarks", report.remarks}});
     } else if (!arguments.common.quiet) {
-        for (const auto& remark : report.remarks) std::cerr << "note: " << remark << '\n';
+        say_notes(report.remarks);
         std::cout << fmt::format("{}: {} points moved by up to {:.3f} through {} landmarks (met within {:.2g})\n",
                                  arguments.output.string(), report.points, report.largest_displacement,
                                  report.landmarks, report.largest_landmark_residual);
