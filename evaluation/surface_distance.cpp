@@ -83,10 +83,42 @@ VertexDistances distances_to_surface(std::span<const Point> vertices_mm, const S
     return result;
 }
 
+namespace {
+
+/// Products of coordinates that are large beside the surface lose the digits of its details: such a surface, in the
+/// frame of a country, say, is measured near the origin. Its middle in whole numbers, so that moving it there loses
+/// nothing; zero for every other.
+Point far_origin(const Mesh& reference) {
+    Eigen::AlignedBox3d box;
+    for (const auto& p : reference.vertices_mm)
+        if (p.allFinite()) box.extend(p);
+    constexpr double far = 100;  // surface sizes
+    if (box.isEmpty() || box.center().norm() <= far * box.diagonal().norm()) return Point::Zero();
+    return box.center().array().round();
+}
+
+std::vector<Point> moved_by(const std::vector<Point>& points, const Point& shift) {
+    std::vector<Point> moved;
+    moved.reserve(points.size());
+    for (const auto& p : points) moved.emplace_back(p + shift);
+    return moved;
+}
+
+}  // namespace
+
 SurfaceDistance surface_distance(const Mesh& test, const Mesh& reference) {
     if (reference.faces.size() == 0)
         throw InputError(fmt::format("the reference has {} vertices but no face; distances need a surface: give a mesh",
                                      reference.vertices_mm.size()));
+    if (const Point origin = far_origin(reference); !origin.isZero(0.0)) {
+        Mesh near_test, near_reference;
+        near_test.faces = test.faces;
+        near_reference.faces = reference.faces;
+        near_test.vertices_mm = moved_by(test.vertices_mm, -origin);
+        near_reference.vertices_mm = moved_by(reference.vertices_mm, -origin);
+        // A surface that is a speck beside its distance even now has no digits left to save.
+        if (far_origin(near_reference).isZero(0.0)) return surface_distance(near_test, near_reference);
+    }
     SurfaceDistance result;
     result.test_to_reference = distances_to_surface(
         test.vertices_mm,

@@ -77,6 +77,21 @@ TEST(SurfaceDistance, of_two_parallel_squares_is_their_gap) {
     EXPECT_EQ(d.test_to_reference.summary.border_hits, 40U);  // the rim stands exactly over the rim
 }
 
+TEST(SurfaceDistance, far_from_the_origin_is_that_near_it) {
+    auto a = sphere(60, 20, 30), b = sphere(60.25, 17, 34);
+    const auto near = surface_distance(a, b);
+    const Point far(524288.5, -4194304.25, 1048576);  // sums with sixteenths are exact
+    for (auto* mesh : {&a, &b})
+        for (auto& p : mesh->vertices_mm) p = (p * 16).array().round().matrix() / 16;
+    const auto rounded = surface_distance(a, b);
+    for (auto* mesh : {&a, &b})
+        for (auto& p : mesh->vertices_mm) p += far;
+    const auto there = surface_distance(a, b);
+    EXPECT_NEAR(near.test_to_reference.summary.mean_mm, rounded.test_to_reference.summary.mean_mm, 0.1);
+    for (std::size_t v = 0; v < a.vertices_mm.size(); ++v)
+        EXPECT_NEAR(there.test_to_reference.distance_mm[v], rounded.test_to_reference.distance_mm[v], 1e-12) << v;
+}
+
 TEST(SurfaceDistance, goes_to_the_surface_and_not_to_its_vertices) {
     Mesh test;
     test.vertices_mm = {{5.37, 4.21, 2.0}};
