@@ -231,8 +231,22 @@ public:
 
 private:
     [[nodiscard]] std::optional<BodyFrame> judged(const std::vector<Point>& mesh_points) const {
-        return from_.frame ? frame_judged_by(positions_in_lps(from_), mesh_points)
-                           : frame_judged_by(positions_in_lps(to_), positions(from_.landmarks));
+        return from_.frame ? frame_judged_by(positions_in_lps(from_), mesh_points) : judged_by_partners();
+    }
+    /// Marks without a frame are in the input's numbers: the frame in which their partners lie less than half as far
+    /// off.
+    [[nodiscard]] std::optional<BodyFrame> judged_by_partners() const {
+        const auto to_lps = positions_in_lps(to_);
+        double lps = 0, ras = 0;
+        for (std::size_t k = 0; k < to_lps.size(); ++k) {
+            const auto* partner = from_.landmarks.find(to_.landmarks.all()[k].name);
+            if (!partner) continue;
+            lps += (to_lps[k] - partner->position_mm).norm();
+            ras += (Point(-to_lps[k].x(), -to_lps[k].y(), to_lps[k].z()) - partner->position_mm).norm();
+        }
+        if (lps < 0.5 * ras) return BodyFrame::lps;
+        if (ras < 0.5 * lps) return BodyFrame::ras;
+        return std::nullopt;
     }
     static void bring(LandmarkFile& marks, const std::string& name, BodyFrame frame, const std::string& why,
                       std::vector<std::string>& remarks) {
@@ -276,8 +290,8 @@ WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::p
     WarpReport report;
     report.remarks = std::move(warp.file.remarks);
     WarpMarks marks(from, to);
-    marks.bring_into_frame_of(warp.file, input.string(), more, report.remarks);
     if (more.pair_by == PairBy::order) marks.pair_by_order(report.remarks);
+    marks.bring_into_frame_of(warp.file, input.string(), more, report.remarks);
     const auto spline = marks.fit(options);
 
     report.landmarks = marks.from().size();

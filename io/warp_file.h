@@ -40,8 +40,9 @@ struct WarpFileOptions {
 ///
 /// Frames: the input's coordinates stand, and the output states the frame that the input states (LPS or RAS, as Slicer
 /// does). Landmarks whose file states a frame are brought into that of the input: the one that it states, else
-/// `more.input_frame`, else the one in which `from` (or, if that file states no frame, `to` beside `from`) lies on it
-/// (frame_judged_by), else LPS, as Slicer takes a mesh. Landmarks without a stated frame are taken as written.
+/// `more.input_frame`, else the one in which `from` lies on it (frame_judged_by) or, if that file states no frame, `to`
+/// lies less than half as far from it, else LPS, as Slicer takes a mesh. Landmarks without a stated frame are taken as
+/// written.
 /// @param from, to  landmark files in any form that read_landmark_file knows.
 /// @param check_texture  asked before the image that a mesh names is copied; throws to refuse it.
 /// @throws InputError listing every landmark that has no partner, and where a file and the options state different
