@@ -21,11 +21,10 @@ BodyFrame parse_body_frame(std::string_view text) {
     const auto word = base::lower_case(base::trimmed(text));
     if (word == "lps" || word == "1" || word == "left-posterior-superior") return BodyFrame::lps;
     if (word == "ras" || word == "0" || word == "right-anterior-superior") return BodyFrame::ras;
-    throw InputError(
-        fmt::format("{} is no frame that is read; it must be LPS, RAS, 0 (RAS) or 1 (LPS)", base::in_quotes(text)));
+    throw InputError(fmt::format("{}; it must be LPS, RAS, 0 (RAS) or 1 (LPS)", base::in_quotes(text)));
 }
 
-std::optional<BodyFrame> frame_in_comment(std::string_view comment) {
+std::optional<BodyFrame> frame_in_comment(std::string_view comment, const std::string& file) {
     const auto text = base::lower_case(comment);
     const auto is_letter = [&](std::size_t at) {
         return at < text.size() && ((text[at] >= 'a' && text[at] <= 'z') || text[at] == '-' || text[at] == '_');
@@ -41,7 +40,12 @@ std::optional<BodyFrame> frame_in_comment(std::string_view comment) {
         const auto word = rest.substr(0, length);
         // Three letters, one for each axis of the body; other words are about something else.
         const bool axes = word.size() == 3 && word.find_first_not_of("rlapsi") == std::string_view::npos;
-        if (axes || word.ends_with("-superior") || word.ends_with("-inferior")) return parse_body_frame(word);
+        if (!axes && !word.ends_with("-superior") && !word.ends_with("-inferior")) continue;
+        try {
+            return parse_body_frame(word);
+        } catch (const InputError& e) {
+            throw InputError(fmt::format("{}: SPACE is {}", file, e.what()));
+        }
     }
     return std::nullopt;
 }

@@ -15,12 +15,13 @@ namespace mimik::io {
 enum class BodyFrame { lps, ras };
 [[nodiscard]] const char* to_string(BodyFrame frame);  ///< "LPS", "RAS"
 [[nodiscard]] BodyFrame other_frame(BodyFrame frame);
-/// "LPS", "RAS", case ignored; "0" is RAS and "1" LPS, as old .fcsv files say. @throws InputError
+/// "LPS", "RAS", case ignored; "0" is RAS and "1" LPS, as old .fcsv files say. @throws InputError that begins with the
+/// value
 [[nodiscard]] BodyFrame parse_body_frame(std::string_view text);
 
 /// The frame of "SPACE=RAS" in a comment or header, as Slicer writes it into its meshes; nothing where there is none.
-/// @throws InputError where it is a frame of the body that is not read ("SPACE=LAS").
-[[nodiscard]] std::optional<BodyFrame> frame_in_comment(std::string_view comment);
+/// @throws InputError naming `file` where it is a frame of the body that is not read ("SPACE=LAS").
+[[nodiscard]] std::optional<BodyFrame> frame_in_comment(std::string_view comment, const std::string& file);
 
 /// Between LPS and RAS, either way.
 void negate_x_and_y(std::span<geometry::Point> points);

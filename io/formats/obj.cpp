@@ -37,7 +37,8 @@ public:
     MeshFile read() {
         while (next_statement()) {
             const auto keyword = base::next_word(rest_);
-            if (keyword.starts_with('#') && !file_.frame) file_.frame = frame_in_comment(lines_.line());
+            if (keyword.starts_with('#') && !file_.frame)
+                file_.frame = frame_in_comment(lines_.line(), lines_.file_name());
             if (keyword == "v")
                 read_vertex();
             else if (keyword == "vt")

@@ -135,7 +135,7 @@ Header parse_header(base::LineReader& lines) {
                                        base::in_quotes(encoding)));
             format_seen = true;
         } else if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) {
-            if (!header.frame) header.frame = frame_in_comment(rest);
+            if (!header.frame) header.frame = frame_in_comment(rest, lines.file_name());
             if (base::next_word(rest) != "TextureFile" || base::trimmed(rest).empty()) continue;
             if (header.texture_files.size() == most_textures)
                 lines.fail(fmt::format("more than {} texture files", most_textures));

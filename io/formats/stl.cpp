@@ -161,7 +161,7 @@ private:
             }
         } else if (word == "solid") {
             const auto solid_name = skip_name(words_, "facet");
-            if (!file_.frame) file_.frame = frame_in_comment(solid_name);
+            if (!file_.frame) file_.frame = frame_in_comment(solid_name, name_);
         } else if (word == "endsolid") {
             skip_name(words_, "solid");
         } else if (word != "facet" && word != "endfacet") {
@@ -206,7 +206,7 @@ MeshFile decode_stl(std::span<const std::uint8_t> bytes, const std::string& name
     const auto needed = header_bytes + triangle_bytes * promised;
     if (bytes.size() >= header_bytes && (bytes.size() == needed || (promised > 0 && bytes.size() > needed))) {
         decode_binary(bytes.first(needed), file.mesh);
-        file.frame = frame_in_comment(text.substr(0, 80));
+        file.frame = frame_in_comment(text.substr(0, 80), name);
         if (bytes.size() > needed && text.find_first_not_of(std::string_view(" \t\r\n\0", 5), needed) != text.npos)
             file.remarks.push_back(
                 fmt::format("{}: {} bytes behind the last triangle are passed over", name, bytes.size() - needed));

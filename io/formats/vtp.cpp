@@ -373,11 +373,7 @@ private:
             const auto codes = read_array(node, "SPACE");
             for (const double code : codes.values)
                 if (code > 0 && code < 128) text += static_cast<char>(code);
-            try {
-                file.frame = frame_in_comment(text);
-            } catch (const InputError& e) {
-                fail(e.what());
-            }
+            file.frame = frame_in_comment(text, name_);
         }
     }
 

@@ -341,12 +341,13 @@ TEST_F(StatedFrames, of_tables_count_too) {
 }
 
 TEST(BodyFrames, are_found_in_comments) {
-    EXPECT_EQ(frame_in_comment("3D Slicer output. SPACE=LPS"), BodyFrame::lps);
-    EXPECT_EQ(frame_in_comment("SPACE = RAS;UNIT=mm"), BodyFrame::ras);
-    EXPECT_EQ(frame_in_comment("space=right-anterior-superior"), BodyFrame::ras);
-    EXPECT_EQ(frame_in_comment("COLORSPACE=RAS"), std::nullopt);
-    EXPECT_EQ(frame_in_comment("space=world"), std::nullopt);
-    EXPECT_THAT(message_of([] { (void)frame_in_comment("SPACE=LAS"); }), HasSubstr("'las' is no frame that is read"));
+    EXPECT_EQ(frame_in_comment("3D Slicer output. SPACE=LPS", "m"), BodyFrame::lps);
+    EXPECT_EQ(frame_in_comment("SPACE = RAS;UNIT=mm", "m"), BodyFrame::ras);
+    EXPECT_EQ(frame_in_comment("space=right-anterior-superior", "m"), BodyFrame::ras);
+    EXPECT_EQ(frame_in_comment("COLORSPACE=RAS", "m"), std::nullopt);
+    EXPECT_EQ(frame_in_comment("space=world", "m"), std::nullopt);
+    EXPECT_THAT(message_of([] { (void)frame_in_comment("SPACE=LAS", "m"); }),
+                HasSubstr("m: SPACE is 'las'; it must be LPS"));
 }
 
 TEST(ForeignLandmarks, of_menpo_are_read_in_all_its_versions) {
