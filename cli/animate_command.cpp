@@ -135,7 +135,8 @@ std::string source_words(const Arguments& arguments) {
 }
 
 /// What a mesh says of how it was made.
-io::MadeBy made_by(const Arguments& arguments, const preprocessing::Face& neutral, const Chosen& chosen) {
+io::MadeBy made_by(const Arguments& arguments, const preprocessing::Workspace& workspace,
+                   const preprocessing::Face& neutral, const Chosen& chosen) {
     std::vector<std::string> expressions;
     std::set<std::string> scans;
     for (std::size_t k = 0; k < chosen.models.size(); ++k) {
@@ -145,13 +146,19 @@ io::MadeBy made_by(const Arguments& arguments, const preprocessing::Face& neutra
     constexpr std::size_t most_named = 8;  // a mean has hundreds
     const auto named =
         scans.size() > most_named ? fmt::format("{} scans", scans.size()) : fmt::format("{}", fmt::join(scans, " "));
+    std::set<std::string> subjects = {neutral.id.subject};
+    for (const auto& name : scans)
+        if (const auto scan = database::parse_scan_name(name)) subjects.insert(scan->subject);
     return {{"made_by", fmt::format("Mimik {} animate", base::version())},
             {"source", fmt::format("{} ({})", source_words(arguments), named)},
             {"target", neutral.id.name()},
             {"expressions", fmt::format("{}", fmt::join(expressions, ", "))},
             {"combined_by", arguments.combine},
             {"method", arguments.method.variant_name()},
-            {"frame", arguments.frame}};
+            {"frame", arguments.frame},
+            // Lists of hidden subjects are heeded wherever the mesh goes (database/file_origin.h).
+            {"subjects", fmt::format("{}", fmt::join(subjects, " "))},
+            {"database", workspace.database_root().string()}};
 }
 
 void print_json(const Arguments& arguments, const preprocessing::Face& neutral, const Chosen& chosen,
@@ -211,7 +218,7 @@ int run(Arguments& arguments) {
             geometry::field_extent(target.surface(), animated.field.mm, export_options.average_from_scan->linear());
     }
     const auto texture = texture_of(neutral, remarks);
-    export_options.made_by = made_by(arguments, neutral, chosen);
+    export_options.made_by = made_by(arguments, workspace, neutral, chosen);
     for (auto& remark : animation::write_animated_face(base::where_links_lead(arguments.output), animated, neutral,
                                                        chosen.names, texture, export_options))
         remarks.push_back(std::move(remark));

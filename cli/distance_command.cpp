@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -89,13 +90,15 @@ std::string line_of(const char* side, const DistanceSummary& s) {
                        s.rms_mm, s.median_mm, s.p95_mm, s.max_mm, s.border_hits);
 }
 
-void write_distances(const std::filesystem::path& file, geometry::Mesh mesh, std::optional<io::BodyFrame> frame,
+void write_distances(const Request& request, geometry::Mesh mesh, std::optional<io::BodyFrame> frame,
                      const VertexDistances& distances, std::vector<std::string>& remarks) {
     geometry::set_attribute(mesh, {"distance_mm", 1, distances.distance_mm});
     geometry::set_attribute(mesh, {"on_border", 1, {distances.on_border.begin(), distances.on_border.end()}});
     io::MeshWriteOptions options;
     options.frame = frame;
-    auto written = io::write_mesh(file, mesh, options);
+    const std::array files = {request.test, request.reference};
+    options.made_by = database::said_in_files(database::origin_to_carry(files));
+    auto written = io::write_mesh(base::where_links_lead(request.output), mesh, options);
     remarks.insert(remarks.end(), written.begin(), written.end());
 }
 
@@ -137,8 +140,7 @@ void run(const Request& request) {
         remarks.push_back(
             fmt::format("{}: {} vertices belong to no face and count all the same", request.test.string(), loose));
     if (!request.output.empty())
-        write_distances(base::where_links_lead(request.output), std::move(test), test_file.frame,
-                        distance.test_to_reference, remarks);
+        write_distances(request, std::move(test), test_file.frame, distance.test_to_reference, remarks);
     if (!request.common.quiet)
         for (const auto& remark : remarks) say_note(remark);
     if (request.common.json) {

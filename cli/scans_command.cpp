@@ -32,7 +32,7 @@ struct Request {
     Common common;
     std::filesystem::path root;
     Selection selection;
-    std::string side;
+    std::string side, unit = "mm";
     std::vector<std::string> action_units;
     ScanIndexOptions index;
     bool no_catalogue = false;
@@ -288,7 +288,7 @@ int run(Request& request) {
         {{"max_hole_mm", "--max-hole-mm"}, {"spike_mm", "--spike-mm"}, {"landmark_off_scan_mm", "--landmark-off-mm"}},
         [&] { request.index.doctor.check(); });
     refuse_workspace(request.root);
-    const auto database = open_database(request.root);
+    const auto database = open_database(request.root, io::parse_length_unit(request.unit));
     const auto scans = select(database, request.selection);
     ScanIndexResult result;
     {
@@ -329,6 +329,8 @@ void add_scans_command(CLI::App& app, int& exit_code) {
     add_common_options(*command, request->common);
     command->add_option("DB", request->root, "Folder with bs000, bs001, ... or with manifest.csv")->required();
     command->add_flag("--check", request->index.check, "Examine every scan and say how to mend what is wrong");
+    command->add_option("--unit", request->unit, "Unit of the scans of which manifest.csv says none: mm, cm, m or inch")
+        ->capture_default_str();
     command->add_option("--subject", request->selection.subjects, "Only these subjects, such as bs003,bs007")
         ->delimiter(',');
     command->add_option("--group", request->selection.groups, "Only these groups, such as N,LFAU")->delimiter(',');

@@ -1,3 +1,4 @@
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -41,6 +42,9 @@ int run_warp(const WarpArguments& arguments) {
                     {"to_landmarks", arguments.to.filename().string()},
                     {"kernel", arguments.kernel},
                     {"smoothing", fmt::format("{}", arguments.options.smoothing)}};
+    const std::array files = {arguments.input, arguments.from, arguments.to};
+    for (auto& said : database::said_in_files(database::origin_to_carry(files)))
+        more.made_by.push_back(std::move(said));
     const auto output = base::where_links_lead(arguments.output);
     const auto report = naming_any({arguments.from, arguments.to, arguments.input, arguments.output}, [&] {
         return io::warp_file(

@@ -332,4 +332,25 @@ void refuse_hidden_file(const fs::path& file) {
     for (const auto& place : places_of(file)) refuse_hidden_at(place, origin);
 }
 
+FileOrigin origin_to_carry(std::span<const fs::path> files) {
+    FileOrigin all;
+    for (const auto& file : files) {
+        auto origin = origin_of(file);
+        const auto places = places_of(file);
+        if (const auto scan = parse_scan_name(file.stem().string()); scan && !places.empty()) {
+            FileOrigin by_name{{scan->subject}, {}};
+            auto folder = places.front().parent_path();
+            for (int level = 0; level <= levels_above_file && by_name.database.empty(); ++level) {
+                by_name.database = workspace_at(folder).database;
+                folder = folder.parent_path();
+            }
+            // A scan of a database: its lists lie beside it or above.
+            if (by_name.database.empty()) by_name.database = places.front().parent_path();
+            origin = united(origin, by_name);
+        }
+        all = united(all, origin);
+    }
+    return all;
+}
+
 }  // namespace mimik::database

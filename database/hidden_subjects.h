@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "database/file_origin.h"
+
 namespace mimik::database {
 
 /// unallowed_subjects.txt: one subject a line, or several with blanks, commas or ';' between; names or numbers
@@ -57,5 +59,9 @@ enum class KnownSubjects { all, some };
 /// list and file, by a manifest.csv in one of them, or by the file itself. So a list that grows hides at once what was
 /// made before. @throws InputError naming the list if that subject is hidden.
 void refuse_hidden_file(const std::filesystem::path& file);
+
+/// What a file that is made of these has to say of itself, so that the gate knows it wherever it goes: whose faces they
+/// show, by themselves or by their names, and of which database.
+[[nodiscard]] FileOrigin origin_to_carry(std::span<const std::filesystem::path> files);
 
 }  // namespace mimik::database

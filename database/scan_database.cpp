@@ -281,6 +281,13 @@ void check_texture(LoadedScan& loaded, const std::vector<NearestScanPoint>& near
     auto images = charts ? charts->images : std::vector<std::string>{};
     if (images.empty() && !loaded.scan.texture_file.empty()) images = {loaded.scan.texture_file};
     for (std::size_t k = images.size(); k-- > 0;) {  // the first is the scan's in the end
+        if (!base::is_utf8(images[k])) {             // JSON files, which keep it, could not
+            loaded.remarks.push_back(
+                fmt::format("the name of its texture image {} has bytes that are no UTF-8; the "
+                            "scan goes without it; rename the image and the scan's reference",
+                            base::in_quotes(images[k])));
+            continue;
+        }
         const auto beside = entry.scan_file.parent_path() / images[k];
         loaded.files_looked_for.push_back(beside);
         if (fs::is_regular_file(beside, ignored))

@@ -60,7 +60,7 @@ struct Unit {
 constexpr std::array<Unit, 8> units = {{{1, "millimetres", "mm"},
                                         {10, "centimetres", "cm"},
                                         {1000, "metres", "m"},
-                                        {25.4, "inches", nullptr},
+                                        {25.4, "inches", "inch"},
                                         {100, "decimetres", nullptr},
                                         {304.8, "feet", nullptr},
                                         {0.1, "tenths of a millimetre", nullptr},

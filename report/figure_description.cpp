@@ -254,8 +254,9 @@ Panel load_panel(const PanelDescription& description, std::vector<std::string>& 
     if (description.mesh.empty()) return panel;
 
     database::refuse_hidden_file(description.mesh);
-    for (const auto* file : {&description.texture, &description.landmarks, &description.controls})
+    for (const auto* file : {&description.texture, &description.landmarks, &description.controls, &description.arrows})
         if (!file->empty()) database::refuse_hidden_file(*file);
+    for (const auto& markers : description.markers) database::refuse_hidden_file(markers.file);
     auto face = read_face(description.mesh, description.unit);
     io::bring_to_lps(face, description.mesh.string());
     remarks.insert(remarks.end(), face.remarks.begin(), face.remarks.end());

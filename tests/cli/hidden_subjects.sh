@@ -21,7 +21,19 @@ expect_code 2 "bs001" "$mimik" panels broken_work --source bs001 --target bs000 
 face=broken_work/faces/bs001/bs001_N_N_0.ply
 expect_code 2 "'bs001' stands in" "$mimik" figure $face -o hidden.png
 expect_code 2 "'bs001' stands in" "$mimik" distance $face broken_work/average/average_face.ply -o hidden.vtp
+mkdir elsewhere
+for extension in ply obj vtp; do
+  "$mimik" animate broken_work --source mean --target bs002 --au 4 -o elsewhere/face.$extension --quiet >/dev/null
+done
+"$mimik" distance elsewhere/face.ply broken_work/average/average_face.ply -o elsewhere/far.vtp --quiet >/dev/null
 echo bs002 >>broken/Unallowed_Subjects.txt  # is heeded without another preprocessing
+for shown in broken_work/faces/bs002/bs002_N_N_0.ply elsewhere/face.ply elsewhere/face.obj elsewhere/face.vtp elsewhere/far.vtp; do
+  expect_code 2 "'bs002' stands in" "$mimik" figure $shown -o hidden.png
+  expect_code 2 "'bs002' stands in" "$mimik" distance $shown broken_work/average/average_face.ply -o hidden.vtp
+  expect_code 2 "'bs002' stands in" "$mimik" warp --from $shown --to $shown $shown -o hidden.ply
+done
+mkdir -p folder_list && cp -rs "$shared/db1" folder_list/db && mkdir folder_list/db/unallowed_subjects.txt
+expect_code 2 "unallowed_subjects.txt: is a folder, so nobody knows whom it hides" "$mimik" scans folder_list/db --no-catalogue
 expect_code 2 "bs002" "$mimik" animate broken_work --source mean --target bs002 --au 4 -o hidden.ply
 [ ! -e hidden.ply ] && [ ! -e hidden ] && [ ! -e hidden.png ] && [ ! -e hidden.vtp ] || fail "a file of a hidden subject"
 echo BS001 >broken/Unallowed_Subjects.txt
