@@ -45,7 +45,7 @@ expect_error() {  # code, words, command...
   "$mimik" "$@" --json >out.txt 2>err.txt || code=$?
   [ "$code" -eq "$wanted" ] || { cat out.txt err.txt; fail "exit code $code: $*"; }
   is_document "\"exit_code\": $wanted"$'\n'"$words" "$*"
-  grep -q '^mimik: ' err.txt || fail "nothing on standard error: $*"
+  grep -q '^mimik[a-z-]*: ' err.txt || fail "nothing on standard error: $*"
 }
 expect_error 2 '"file": "nothing.ply"' distance nothing.ply high.obj
 expect_error 2 '"option": "--exprssion"' animate work1 --exprssion 12

@@ -65,7 +65,7 @@ commands=$("$mimik" --help | sed -n '/^Commands/,/^Options/s/^  \([a-z]*\) .*/\1
 [ "$(echo $commands)" = "synthesize scans preprocess animate model evaluate panels figure warp distance regions catalogue version help" ] || fail "order: $commands"
 for command in $commands; do
   "$mimik" $command --help | grep -q "^Usage: mimik $command" || fail "usage of $command"
-  [ "$command" = help ] || "$mimik" $command --help | grep -q -- '--json' || fail "--json of $command"
+  [ "$command" = help ] || "$mimik" $command --help | grep -q -- "--json" || fail "--json of $command"
 done
 claim "help is the same in every way in which it is asked for, commands stand in the order of work"
 
