@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <array>
+#include <climits>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -5,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "base/file.h"
 #include "cli/command.h"
@@ -43,6 +48,22 @@ int say_plan(const Arguments& arguments, const evaluation::ExperimentPlan& plan)
     return exit_done;
 }
 
+/// What is removed when a signal ends the program: half a table is of no use to anybody.
+std::array<char, PATH_MAX> half_written{};
+
+void remove_at_signals(const std::filesystem::path& file) {
+    const auto name = file.string();
+    if (name.size() >= half_written.size()) return;
+    std::copy(name.begin(), name.end(), half_written.begin());
+    struct sigaction action {};
+    action.sa_handler = [](int signal) {
+        ::unlink(half_written.data());
+        ::raise(signal);  // which by now ends the program as ever
+    };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
+
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
     const auto catalogue =
@@ -65,6 +86,7 @@ int run(Arguments& arguments) {
     evaluation::ExperimentReport report;
     {
         Progress progress(arguments.common, "evaluate", plan.units());
+        remove_at_signals(folder / "cases.csv.part");
         report = evaluation::run_experiment(reader, catalogue, plan, folder / "cases.csv",
                                             [&](const std::string& what) { progress.advance(what); });
     }

@@ -55,3 +55,13 @@ if can_draw; then
   grep -q '"drawn": 0' sheets.json && grep -q '"failures": \[\]' sheets.json || fail "sheets drawn again"
   claim "quality sheets are drawn once"
 fi
+
+# The same landmark is missing in every expressive scan.
+cp -rL "$shared/db1" sparse
+for file in sparse/*/*AU_*.lm3; do
+  awk '/^Nose tip/ { getline; next } { print }' "$file" >marks.lm3
+  sed 's/^\([0-9]*\) landmarks:/21 landmarks:/' marks.lm3 >"$file"
+done
+"$mimik" preprocess sparse -o sparse_work >/dev/null 2>notes.txt || true
+[ "$(grep -c 'lacks nose_tip' notes.txt)" -eq 1 ] && grep -q '^note: bs000_LFAU_12_0 and 8 more: .*lacks nose_tip' notes.txt || { cat notes.txt; fail "notes are not grouped"; }
+claim "a note that holds for many scans is one line with their count"

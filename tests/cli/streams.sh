@@ -67,21 +67,26 @@ for file in deep.toml brackets.toml; do
   expect_code 2 "deeper than" "$mimik" animate whole --target bs001 --au 12 --catalogue $file -o nothing.ply
   expect_code 2 "$file:1: error: " "$mimik" catalogue $file --lint
 done
-claim "TOML that nests too deep is refused"
+{ printf '{"schema": 1, "x": '; printf '[%.0s' {1..50000}; } >deep.json
+expect_code 2 $'deep.json\ndeeper than' "$mimik" animate whole --target bs001 --model deep.json -o nothing.ply
+expect_code 2 $'deep.json\ndeeper than' "$mimik" figure --description deep.json -o nothing.png
+claim "TOML and JSON that nest too deep are refused"
 
 TMPDIR=$PWD/tmp
 export TMPDIR
 mkdir tmp
-"$mimik" evaluate whole --quiet >/dev/null 2>&1 &
+"$mimik" evaluate whole -o ended --quiet >/dev/null 2>&1 &
 job=$!
-for _ in $(seq 100); do
+for _ in $(seq 200); do
+  [ -e ended/cases.csv.part ] && break
   kill -0 $job 2>/dev/null || break
-  ls -l "/proc/$job/fd" 2>/dev/null | grep -q 'mimik-cases' && break
-  sleep 0.05
+  sleep 0.02
 done
-kill -KILL $job 2>/dev/null || true
-wait $job || true
-[ -z "$(ls tmp)" ] || { ls tmp; fail "a temporary file is left"; }
+kill -TERM $job 2>/dev/null || true
+code=0
+wait $job || code=$?
+[ "$code" -eq 143 ] || [ -s ended/scores.md ] || fail "ends with $code"
+[ -z "$(ls tmp)" ] && ! ls ended | grep -q part || { ls tmp ended; fail "a temporary file is left"; }
 claim "an evaluation that is ended leaves no temporary file"
 
 if command -v script >/dev/null; then
