@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -89,6 +90,13 @@ std::string with_file(const std::vector<std::filesystem::path>& files, std::stri
         if (!file.empty() && message.find(file.string()) != std::string_view::npos) return std::string(message);
     if (files.empty() || files.front().empty()) return std::string(message);
     return fmt::format("{}: {}", files.front().string(), message);
+}
+
+std::string no_memory_for(const std::vector<std::filesystem::path>& files) {
+    std::vector<std::string> names;
+    for (const auto& file : files) names.push_back(file.string());
+    return fmt::format("{}: more memory is needed than there is; give {}", fmt::join(names, ", "),
+                       names.size() == 1 ? "a smaller file" : "smaller files");
 }
 
 }  // namespace mimik::cli

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "base/errors.h"
@@ -23,20 +24,23 @@ void refuse_workspace(const std::filesystem::path& database);
 /// "file: message" with the first of the files, unless the message has one of them.
 [[nodiscard]] std::string with_file(const std::vector<std::filesystem::path>& files, std::string_view message);
 
+[[nodiscard]] std::string no_memory_for(const std::vector<std::filesystem::path>& files);
+
 /// What `work` gives; whatever it throws names one of the files, the first where it names none itself.
 template <class Work>
 auto naming_any(const std::vector<std::filesystem::path>& files, const Work& work) {
-    constexpr const char* no_memory = "needs more memory than there is; give a smaller file";
     try {
         return work();
     } catch (const InputError& e) {
         throw InputError(with_file(files, e.what()));
     } catch (const NumericalError& e) {
         throw NumericalError(with_file(files, e.what()));
+    } catch (const std::system_error& e) {  // no thread, no disk
+        throw InputError(with_file(files, e.what()));
     } catch (const std::bad_alloc&) {
-        throw InputError(with_file(files, no_memory));
+        throw InputError(no_memory_for(files));
     } catch (const std::length_error&) {
-        throw InputError(with_file(files, no_memory));
+        throw InputError(no_memory_for(files));
     }
 }
 template <class Work>

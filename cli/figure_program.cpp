@@ -114,6 +114,7 @@ void draw(const FigureArguments& arguments) {
 int run_figure(int argc, char** argv) {
     prepare_standard_streams();
     CLI::App app{"Draws faces side by side, without needing a display.", "mimik-figure"};
+    app.set_help_flag("-h,--help", "Print this help and stop");
     FigureArguments arguments;
     add_figure_options(app, arguments);
     app.callback([&] {

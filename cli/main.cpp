@@ -7,6 +7,7 @@
 int main(int argc, char** argv) {
     mimik::cli::prepare_standard_streams();
     CLI::App app{"Mimik puts expressions on 3D face scans and measures how true they are.", "mimik"};
+    app.set_help_flag("-h,--help", "Print this help and stop");
     app.set_version_flag("-V,--version", MIMIK_VERSION, "Print the version and stop; 'mimik version' says more");
     app.require_subcommand(1);
     app.footer(

@@ -61,6 +61,9 @@ std::string plain_output(const std::string& option, const std::string& text) {
     if (std::any_of(text.begin(), text.end(), is_control))
         throw InputError(fmt::format("{} is '{}'; give a name without line breaks and other control characters", option,
                                      one_line(text)));
+    if (text.starts_with('='))  // "-o=face.ply": only long options take a value so
+        throw InputError(fmt::format("{} is {}; give it behind a blank: -o {}", option, base::in_quotes(text),
+                                     one_line(text.substr(1))));
     return {};
 }
 

@@ -51,6 +51,7 @@ expect_line "--regions needs --hold; give both" "$mimik" animate WORK --target a
 expect_line "excludes" "$mimik" catalogue --lint --text
 expect_line "--output is 'a\\nb.ply'; give a name without line breaks" "$mimik" animate WORK --target a -o $'a\nb.ply'
 expect_line "--output is 'a\\x1bb'; give a name without" "$mimik" evaluate WORK -o $'a\x1bb'
+expect_line "--output is '=a.ply'; give it behind a blank: -o a.ply" "$mimik" animate WORK --target a -o=a.ply
 expect_line "OUT is 'a\\tb'; give a name without" "$mimik" synthesize $'a\tb'
 claim "what is missing, too much or given twice is named with the usage"
 

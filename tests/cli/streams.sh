@@ -89,6 +89,17 @@ wait $job || code=$?
 [ -z "$(ls tmp)" ] && ! ls ended | grep -q part || { ls tmp ended; fail "a temporary file is left"; }
 claim "an evaluation that is ended leaves no temporary file"
 
+awk 'BEGIN { for (i = 0; i < 1000000; ++i) print "v", i, 0, 0 }' >large.obj
+awk 'BEGIN { print "name,x,y,z"; for (i = 0; i < 1000000; ++i) print "p" i "," i ",0,0" }' >large.csv
+printf 'name,x,y,z\na,0,0,0\nb,40,0,0\nc,0,40,0\nd,0,0,40\n' >box.csv
+memory=60000  # kB: the program starts with less, the files need more
+small() { (ulimit -v $memory && exec "$@"); }
+small "$mimik" version >/dev/null || fail "the program needs more than $memory kB to start"
+expect_code 2 $'mimik: large.obj: \nmemory' small "$mimik" distance large.obj face.obj
+expect_code 2 $'large.csv: \nmemory' small "$mimik" distance large.csv face.obj
+expect_code 2 $'large.obj: \nmemory' small "$mimik" warp --from box.csv --to box.csv large.obj -o nothing.obj
+claim "a file for which there is not enough memory is named"
+
 if command -v script >/dev/null; then
   script -qec "TERM=xterm '$mimik' preprocess db1 -o shown" typescript >/dev/null </dev/null
   grep -q ' left bs' typescript || fail "no remaining time on the bar"
