@@ -14,6 +14,7 @@
 #include "io/image.h"
 #include "io/mesh_io.h"
 #include "io/points_csv.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/thrown.h"
 
 namespace mimik::io {
@@ -147,10 +148,10 @@ TEST_F(Warp, hands_on_nothing_but_images_that_lie_with_the_mesh) {
     EXPECT_THAT(remark_of(), HasSubstr("skin.png: is neither a PNG, a JPEG nor a BMP image"));
     base::write_atomically(at("skin.png"), "\x89PNG\r\n\x1A\n and no more");
     EXPECT_THAT(remark_of(), HasSubstr("skin.png"));
-    const TemporaryFolder elsewhere;
-    write_png(elsewhere / "private.png", {1, 1, {1, 2, 3}});
+    const test::TemporaryFolder elsewhere;
+    write_png(elsewhere.path() / "private.png", {1, 1, {1, 2, 3}});
     std::filesystem::remove(at("skin.png"));
-    std::filesystem::create_symlink(elsewhere / "private.png", at("skin.png"));
+    std::filesystem::create_symlink(elsewhere.path() / "private.png", at("skin.png"));
     EXPECT_THAT(remark_of(), HasSubstr("a link that leads out of the mesh's folder"));
     EXPECT_FALSE(std::filesystem::exists(at("out_texture.png")));
     std::filesystem::remove(at("skin.png"));
