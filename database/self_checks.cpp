@@ -146,10 +146,11 @@ void reorient_texture(geometry::RangeScan& scan, TextureAxes axes) {
 
 FrameCorrelations frame_correlations(const geometry::RangeScan& scan) {
     Correlation x_u, y_v, y_row, x_column;
+    const bool one_chart = !scan.texture_coordinates.empty() && !scan.charts;  // others lie as they like
     for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
         if (!scan.valid(i)) continue;
         const auto& p = scan.points_mm[i];
-        if (!scan.texture_coordinates.empty() && scan.texture_coordinates[i].allFinite()) {
+        if (one_chart && scan.texture_coordinates[i].allFinite()) {
             x_u.add(p.x(), scan.texture_coordinates[i].x());
             y_v.add(p.y(), scan.texture_coordinates[i].y());
         }
