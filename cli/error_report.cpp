@@ -50,6 +50,9 @@ Named named_by(std::string_view message, const std::vector<std::string>& words) 
         auto file = message.substr(0, colon);
         const auto rest = message.substr(colon + 2);
         if (is_file(file, words)) return {std::string(file), line_of(rest), named.option};
+        // "from.csv, to.csv: ...": the first stands for all.
+        const auto first = file.substr(0, file.find(", "));
+        if (first.size() < file.size() && is_file(first, words)) return {std::string(first), nullptr, named.option};
         const auto number = file.rfind(':');
         if (number == std::string_view::npos || !is_file(file.substr(0, number), words)) continue;
         if (const auto line = base::parse_integer(file.substr(number + 1)))
