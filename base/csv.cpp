@@ -18,14 +18,17 @@ constexpr std::size_t most_columns = 10000;
 /// The commas, semicolons and tabs of a line that stand in no quotes: the most frequent of them; a comma if there is
 /// none.
 char separator_of(std::string_view line) {
-    std::array<std::pair<char, std::size_t>, 3> counts = {{{',', 0}, {';', 0}, {'\t', 0}}};
+    std::array<std::pair<char, std::size_t>, 3> counts = {{{'\t', 0}, {';', 0}, {',', 0}}};
     bool quoted = false;
     for (const char c : line) {
         if (c == '"') quoted = !quoted;
         for (auto& [separator, count] : counts)
             if (c == separator && !quoted) ++count;
     }
-    return std::max_element(counts.begin(), counts.end(), [](auto& a, auto& b) { return a.second < b.second; })->first;
+    // As many commas as semicolons are those of numbers, in a table without a header line.
+    const auto most =
+        std::max_element(counts.begin(), counts.end(), [](auto& a, auto& b) { return a.second < b.second; });
+    return most->second > 0 ? most->first : ',';
 }
 
 /// Of a first line "sep=;", as some spreadsheets write it before the header (perhaps in quotes, or filled up with empty
