@@ -35,7 +35,10 @@ database::LoadedScan load_marked(const ScanEntry& entry, const std::vector<std::
         throw InputError(fmt::format("no landmark file beside {}; put {} there", entry.scan_file.string(),
                                      entry.scan_file.stem().string() + ".lm3"));
     }
+    const auto& kinds = kinds_that_refuse();
     for (const auto& finding : database::reasons_to_refuse(loaded)) {
+        // A landmark in another's place is the user's to judge: the scan lies where it should.
+        if (std::find(kinds.begin(), kinds.end(), finding.kind) == kinds.end()) continue;
         if (std::find(accepted.begin(), accepted.end(), finding.kind) == accepted.end())
             throw InputError(fmt::format("{} ({}): {}; {}", finding.where, finding.kind, finding.what, finding.mend));
         loaded.remarks.push_back(fmt::format("accepted ({}): {}", finding.kind, finding.what));
