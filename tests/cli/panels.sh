@@ -40,7 +40,7 @@ expect_code 2 "stand in --series" "$mimik" panels work1 --target bs001 --au 12:0
 expect_code 2 "bs000, bs001, bs002" "$mimik" panels work1 --target bs009 --au 12 -o nothing
 expect_code 2 "no scan of expression '17'" "$mimik" panels work1 --source bs000 --target bs001 --au 17 -o nothing
 expect_code 2 "magnitude -1" "$mimik" panels work1 --source bs000 --target bs001 --au 12 --series 0,-1 -o nothing --dry-run
-expect_code 2 "magnitude nan" "$mimik" panels work1 --source bs000 --target bs001 --au 12 --series 2,nan -o nothing
+expect_code 2 "--series is nan; give a finite number" "$mimik" panels work1 --source bs000 --target bs001 --au 12 --series 2,nan -o nothing
 expect_code 2 "no other subject shows expression '15'" "$mimik" panels work1 --source mean --target bs001 --au 15 -o nothing --dry-run
 expect_code 2 "asked for twice" "$mimik" panels work1 --source bs000 --target bs001 --au 12,AU12 -o nothing
 for dry in "" --dry-run; do

@@ -28,10 +28,10 @@ claim "a folder that takes no database is found out before the work and in a dry
 mkdir stopped
 "$mimik" synthesize stopped/db --subjects 200 --expressions all 2>stopped.txt &
 job=$!
-for _ in $(seq 600); do [ -n "$(ls stopped)" ] && break; sleep 0.1; done
-[ -n "$(ls stopped)" ] || fail "nothing was begun"
+for _ in $(seq 600); do [ -n "$(ls -A stopped)" ] && break; sleep 0.1; done
+[ -n "$(ls -A stopped)" ] || fail "nothing was begun"
 kill -TERM $job
 code=0
 wait $job || code=$?
-[ "$code" -eq 143 ] && [ -z "$(ls stopped)" ] || { cat stopped.txt; fail "exit code $code, left: $(ls stopped)"; }
+[ "$code" -eq 143 ] && [ -z "$(ls -A stopped)" ] || { cat stopped.txt; fail "exit code $code, left: $(ls -A stopped)"; }
 claim "a run that is told to stop leaves nothing behind"
