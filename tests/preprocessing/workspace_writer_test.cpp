@@ -164,7 +164,7 @@ TEST_F(WorkspaceWriterTest, what_a_killed_run_left_half_written_is_deleted_and_n
     EXPECT_EQ(after, before);
 }
 
-TEST_F(WorkspaceWriterTest, a_scan_that_is_replaced_while_it_is_read_is_not_taken) {
+TEST_F(WorkspaceWriterTest, a_scan_that_is_replaced_while_it_is_read_is_taken_whole_or_refused) {
     const auto database = database::open_database(database_);
     const auto& entry = *database.find(*database::parse_scan_name("bs001_N_N_0"));
     const auto whole = read_scan(entry);
@@ -175,8 +175,11 @@ TEST_F(WorkspaceWriterTest, a_scan_that_is_replaced_while_it_is_read_is_not_take
     std::thread other([&] {
         for (int k = 0; !stop; ++k) base::write_atomically(entry.landmarks_file, marks + std::string(k % 2 + 1, '\n'));
     });
-    EXPECT_THAT(message_of<InputError>([&] { (void)read_scan(entry); }),
-                HasSubstr("was replaced each of the 5 times that it was read; wait until it is copied"));
+    // How often the other thread comes in between is chance: whole or refused, never half.
+    for (int k = 0; k < 3; ++k)
+        EXPECT_THAT(
+            message_of<InputError>([&] { EXPECT_EQ(read_scan(entry).loaded.landmarks.size(), 22U); }),
+            testing::AnyOf("nothing was thrown", HasSubstr("was replaced each of the 5 times that it was read")));
     stop = true;
     other.join();
     EXPECT_EQ(read_scan(entry).stamps, stamps_of(entry));
