@@ -51,7 +51,7 @@ step 2 "Preprocess it: clean, resample to 150x150, average face, normalise"
 step 3 "Model AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 left on the average face"
 "$mimik" model "$out/workspace" --source mean --expression 1,2,4,12,14,15,17,20,12L
 
-step 4 "Animate neutral faces and compare them with the real scans: Figs 6-1 to 6-3, 6-6 and 5-12"
+step 4 "Animate neutral faces and compare them with the synthetic scans: Figs 6-1 to 6-3, 6-6 and 5-12"
 source=bs000
 target=bs001
 "$mimik" panels "$out/workspace" --source "$source" --target "$target" --au 4,12,15,12L -o "$out/figures" --quiet
@@ -69,7 +69,7 @@ for folder in "$out"/database/bs*; do
   neutrals+=("$folder/$(basename "$folder")_N_N_0.bnt")
   captions+=(--caption "$(basename "$folder")")
 done
-"$mimik" figure -o "$out/figures/subjects.png" --columns 6 --size 260x320 --quiet "${neutrals[@]}" "${captions[@]}"
+"$mimik" figure -o "$out/figures/subjects.png" --title "Synthetic subjects, a neutral scan each" --columns 6 --size 260x320 --quiet "${neutrals[@]}" "${captions[@]}"
 
 step 5 "Score thesis, default and mean beside doing nothing, on every ordered pair of subjects"
 "$mimik" evaluate "$out/workspace" -o "$out/scores"
