@@ -302,7 +302,8 @@ void check_unit(const LoadedScan& loaded, std::span<const double> off_mm, const 
     const double said_mm = apart ? 1.0 : io::millimetres_per(loaded.entry.unit);
     const double slack = scan_alone ? 2 : 1;  // an extent is no measure of a face
     const auto* unit = unit_of(ratio / said_mm, options.min_size_ratio / slack, options.max_size_ratio * slack);
-    if (!unit)
+    // Two files of one scan in two units cannot both be in the table's.
+    if (!unit || (apart && !in_mm))
         return report.add(Severity::error, "unit", what,
                           fmt::format("convert {} to {}, and check the landmarks", coordinates,
                                       in_mm ? "millimetres" : "the unit that manifest.csv gives them"),
