@@ -117,10 +117,22 @@ std::optional<Vector> nose_side(const geometry::RangeScan& scan, const HeadAxes&
     }
     constexpr std::size_t fewest = 5;
     if (heights.size() < fewest) return std::nullopt;
+    // Of a cloud with a front and a back there is no telling.
+    const auto before = std::count_if(heights.begin(), heights.end(), [](double height) { return height > 0; });
+    const auto behind = static_cast<std::ptrdiff_t>(heights.size()) - before;
+    if (4 * std::min(before, behind) > static_cast<std::ptrdiff_t>(heights.size())) return std::nullopt;
     const double stands_out = geometry::median(std::move(heights));
     // A nose stands out by a sixth of the eyes' distance and more.
     if (std::abs(stands_out) < 0.03 * width) return std::nullopt;
     return stands_out > 0 ? normal : Vector(-normal);
+}
+
+/// True if the nose tip lies in the plane of eyes and mouth: then it does not tell where the face looks.
+bool nose_tip_is_level(const Landmarks& marks, const HeadAxes& axes) {
+    const geometry::Point mouth =
+        (marks.position_mm("mouth_corner_left") + marks.position_mm("mouth_corner_right")) / 2;
+    const double off = axes.lateral.cross(axes.up).dot(marks.position_mm("nose_tip") - mouth);
+    return std::abs(off) < 0.03 * geometry::outer_eye_distance_mm(marks);
 }
 
 /// How a head lies in its frame.
@@ -141,6 +153,10 @@ std::optional<HeadPose> head_pose(const LoadedScan& loaded, std::span<const doub
             pose.nose_tip_wrong = out->dot(axes->out) < 0;
             pose.axes.out = *out;
         }
+    if (!pose.surface_says && nose_tip_is_level(loaded.landmarks, *axes)) {
+        pose.axes.out = axes->lateral.cross(axes->up);
+        if (pose.axes.out.z() < 0) pose.axes.out = -pose.axes.out;
+    }
     const bool left_handed = pose.axes.lateral.cross(pose.axes.up).dot(pose.axes.out) < 0;
     const auto& checks = loaded.checks;
     // Labels of Bosphorus get their side from where they lie: they prove nothing. The camera sees its image unmirrored.
