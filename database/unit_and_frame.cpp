@@ -118,7 +118,7 @@ std::optional<Vector> nose_side(const geometry::RangeScan& scan, const HeadAxes&
     constexpr std::size_t fewest = 5;
     if (heights.size() < fewest) return std::nullopt;
     // Of a cloud with a front and a back there is no telling.
-    const auto before = std::count_if(heights.begin(), heights.end(), [](double height) { return height > 0; });
+    const auto before = std::count_if(heights.begin(), heights.end(), [](double mm) { return mm > 0; });
     const auto behind = static_cast<std::ptrdiff_t>(heights.size()) - before;
     if (4 * std::min(before, behind) > static_cast<std::ptrdiff_t>(heights.size())) return std::nullopt;
     const double stands_out = geometry::median(std::move(heights));
