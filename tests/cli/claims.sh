@@ -33,7 +33,7 @@ same_but_for_origin() {
   local file bytes
   for file in "$1" "$2"; do
     bytes=$(od -An -tu4 -j12 -N4 "$file")
-    tail -c +21 "$file" | head -c "$bytes" | sed 's/"asset":{\("extras":{[^}]*}\)\{0,1\}[^}]*}//; s/ *$//' >"$file.json"
+    head -c $((20 + bytes)) "$file" | tail -c +21 | sed 's/"asset":{\("extras":{[^}]*}\)\{0,1\}[^}]*}//; s/ *$//' >"$file.json"
     tail -c +$((21 + bytes)) "$file" >"$file.numbers"
   done
   cmp "$1.numbers" "$2.numbers" && cmp "$1.json" "$2.json"

@@ -239,8 +239,8 @@ TEST(Slicer, without_a_mesh_a_unit_that_the_json_states_goes_before_the_one_aske
     const std::string point = R"({"label": "chin", "position": [1, 2, 3]})";
     EXPECT_EQ(decode(LandmarkFormat::mrk_json, mrk(point), {}, LengthUnit::metre).all()[0].position_mm, Point(1, 2, 3));
     EXPECT_EQ(decode(LandmarkFormat::mrk_json, mrk(point, "cm")).all()[0].position_mm, Point(10, 20, 30));
-    EXPECT_THAT(refused(LandmarkFormat::mrk_json, mrk(point, "inch")),
-                HasSubstr("marks: coordinateUnits: unit 'inch'"));
+    EXPECT_EQ(decode(LandmarkFormat::mrk_json, mrk(point, "inch")).all()[0].position_mm.x(), 25.4);
+    EXPECT_THAT(refused(LandmarkFormat::mrk_json, mrk(point, "ell")), HasSubstr("marks: coordinateUnits: unit 'ell'"));
 }
 
 TEST(Slicer, json_errors_name_the_byte_or_the_point) {
