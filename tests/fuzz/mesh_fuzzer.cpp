@@ -24,7 +24,7 @@ std::string encoded(const Mesh& mesh, bool binary) {
     options.binary = binary;
     options.texture_file = "face.png";
     if (format == MeshFormat::ply) formats::encode_ply(out, mesh, options);
-    if (format == MeshFormat::obj) formats::encode_obj(out, mesh, "face.mtl");
+    if (format == MeshFormat::obj) formats::encode_obj(out, mesh, options, "face.mtl");
     if (format == MeshFormat::stl) formats::encode_stl(out, mesh, options, "seed");
     if (format == MeshFormat::vtp) formats::encode_vtp(out, mesh);
     return out.str();
