@@ -172,7 +172,6 @@ private:
                         largest_texture_ = texture;
                         largest_texture_line_ = lines_.number();
                     }
-                    any_texture_ = true;
                 }
             }
             faces.corners.push_back(vertex);
@@ -215,15 +214,17 @@ private:
                                 lines_.file_name(), line, what, std::size_t{largest} + 1, count));
         };
         check(largest_vertex_, largest_vertex_line_, mesh.vertices_mm.size(), "vertex");
-        if (any_texture_ && mesh.texture_coordinates.empty()) {
+        auto& texture = mesh.faces.texture_corners;
+        // Of the faces that are kept: one of two corners may have been the only one with a texture.
+        bool any_texture = std::any_of(texture.begin(), texture.end(), [](auto t) { return t != no_texture; });
+        if (any_texture && mesh.texture_coordinates.empty()) {
             file_.remarks.push_back(
                 fmt::format("{}: faces name texture positions and there is no 'vt' line; the texture is left out",
                             lines_.file_name()));
-            any_texture_ = false;
+            any_texture = false;
         }
-        if (any_texture_) check(largest_texture_, largest_texture_line_, mesh.texture_coordinates.size(), "texture");
-        auto& texture = mesh.faces.texture_corners;
-        if (!any_texture_) {
+        if (any_texture) check(largest_texture_, largest_texture_line_, mesh.texture_coordinates.size(), "texture");
+        if (!any_texture) {
             texture.clear();
             if (mesh.texture_coordinates.size() != mesh.vertices_mm.size()) mesh.texture_coordinates.clear();
             return;
@@ -248,7 +249,6 @@ private:
     std::map<std::string, std::uint32_t> materials_;
     std::uint32_t material_ = no_picture;  // of the faces that follow
     std::size_t small_faces_ = 0;
-    bool any_texture_ = false;
 };
 
 }  // namespace

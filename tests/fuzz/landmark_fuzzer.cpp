@@ -42,7 +42,7 @@ std::vector<std::string> seeds() {
     std::vector<std::string> files = {encode_landmarks(format, marks), encode_landmarks(format, Landmarks())};
     if (format == LandmarkFormat::csv) {
         files.emplace_back("sep=;\nlabel;r;a;s;defined\na;1,5;2;3;1\n;;;;\nb;;;;0\n");
-        files.emplace_back(std::string("\xFF\xFEn\0a\0m\0e\0\t\0x\0\t\0y\0\t\0z\0\n\0", 28));
+        files.emplace_back(std::string("\xFF\xFEn\0a\0m\0e\0\t\0x\0\t\0y\0\t\0z\0\n\0", 24));
     }
     if (format == LandmarkFormat::fcsv) files.emplace_back("# columns = label,x,y,z,sel,vis\na,1,2,3,1,1\n");
     return files;

@@ -159,6 +159,14 @@ TEST(ForeignObj, what_is_left_out_is_counted) {
     EXPECT_THAT(file.mesh.colours[1], ElementsAre(255, 255, 255));
 }
 
+TEST(ForeignObj, a_face_that_is_left_out_takes_its_texture_along) {
+    const auto file =
+        decode_mesh(MeshFormat::obj, bytes_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 1\nf 1/1 2/2\nf 1 2 3\n"), "o");
+    EXPECT_EQ(file.mesh.faces.size(), 1U);
+    EXPECT_THAT(file.mesh.texture_coordinates, IsEmpty());
+    EXPECT_THAT(file.mesh.faces.texture_corners, IsEmpty());
+}
+
 TEST(ForeignNames, are_mended_where_a_format_cannot_hold_them) {
     const TemporaryFolder folder;
     EXPECT_THAT(all_of(warp(data / "vtp-array-names/blank.vtp", folder / "out.ply").remarks),
