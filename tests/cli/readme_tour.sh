@@ -37,7 +37,7 @@ claim "the tour of README.md runs as it is printed"
 reproduce=$(dirname "$readme")/scripts/reproduce.sh
 grep -q '^out=$PWD/out/reproduce$' "$reproduce" && grep -q '"$mimik" synthesize "$out/database"' "$reproduce"
 grep -q '^mimik=$PWD/build/release/bin/mimik$' "$reproduce" && grep -q '^export PATH=$PWD/build/release/bin:$PATH$' "$readme"
-grep -q '^ln -s out/reproduce/database DB$' "$readme" || fail "the tour's database is not that of reproduce.sh"
+grep -q '^mkdir out/tour && cd out/tour$' "$readme" && grep -q '^ln -s ../reproduce/database DB$' "$readme" || fail "the tour's database is not that of reproduce.sh"
 tail -n 2 "$reproduce" | grep -q 'Database: %s  Program: %s' || fail "the last line of reproduce.sh names no database or no program"
 claim "the tour starts from what reproduce.sh leaves, and that script's last line names the database and the program"
 
