@@ -666,7 +666,7 @@ TEST_F(Animate, a_texture_that_is_no_picture_is_not_handed_on) {
     for (const char* file : {"face.ply", "face.glb"}) {
         const auto remarks =
             write_animated_face(folder.path() / file, animated, target_->neutral, names, folder.path() / "key.png");
-        if (std::string(file) == "face.ply") {
+        if (std::string(file) == "face.ply") {  // a GLB asks for no picture where there are no texture positions
             EXPECT_THAT(remarks, testing::Contains(HasSubstr("key.png: is neither a PNG, a JPEG nor a BMP image")));
         }
         EXPECT_EQ(base::read_text(folder.path() / file).find("nobody's business"), std::string::npos) << file;

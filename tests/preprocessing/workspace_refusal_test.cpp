@@ -13,6 +13,7 @@
 #include "preprocessing/preprocess_run.h"
 #include "preprocessing/workspace.h"
 #include "tests/database/temporary_folder.h"
+#include "tests/preprocessing/quick_options.h"
 #include "tests/support/analytic_database.h"
 
 namespace mimik::preprocessing {
@@ -25,13 +26,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-PreprocessOptions quick() {
-    PreprocessOptions options;
-    options.steps.gridding.rows = options.steps.gridding.cols = 60;
-    options.average.rows = options.average.cols = 60;
-    return options;
-}
 
 class WorkspaceRefusalTest : public testing::Test {
 protected:

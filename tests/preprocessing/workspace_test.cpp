@@ -20,6 +20,7 @@
 #include "io/mesh_io.h"
 #include "preprocessing/preprocess_run.h"
 #include "tests/database/temporary_folder.h"
+#include "tests/preprocessing/quick_options.h"
 #include "tests/support/analytic_database.h"
 
 namespace mimik::preprocessing {
@@ -31,13 +32,6 @@ using geometry::Point;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-PreprocessOptions quick() {
-    PreprocessOptions options;
-    options.steps.gridding.rows = options.steps.gridding.cols = 60;
-    options.average.rows = options.average.cols = 60;
-    return options;
-}
 
 facs::Expression smile() { return facs::builtin_catalogue().expression("12"); }
 

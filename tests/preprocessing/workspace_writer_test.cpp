@@ -19,6 +19,7 @@
 #include "preprocessing/scan_reading.h"
 #include "preprocessing/workspace.h"
 #include "tests/database/temporary_folder.h"
+#include "tests/preprocessing/quick_options.h"
 #include "tests/support/analytic_database.h"
 
 namespace mimik::preprocessing {
@@ -28,13 +29,6 @@ namespace fs = std::filesystem;
 using database::message_of;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-PreprocessOptions quick() {
-    PreprocessOptions options;
-    options.steps.gridding.rows = options.steps.gridding.cols = 60;
-    options.average.rows = options.average.cols = 60;
-    return options;
-}
 
 std::map<std::string, std::string> contents(const fs::path& folder) {
     std::map<std::string, std::string> files;
