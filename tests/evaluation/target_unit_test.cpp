@@ -3,6 +3,8 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <mutex>
+#include <set>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -85,6 +87,48 @@ TEST(InOrder, begins_units_in_order_so_that_few_results_wait) {
     for (std::size_t t = 0; t < begun.size(); ++t) EXPECT_EQ(begun[t], t);
     EXPECT_EQ(most_waiting, 1U);  // the one that is being scored
     EXPECT_EQ(taken, 40U);
+}
+
+TEST(InOrder, two_threads_begin_units_in_order_and_let_wait_only_what_was_finished_during_the_slow_one) {
+    // Unit 3 ends when unit 8 has begun, and unit 8 when unit 3 was taken: 3 and the four between them are all that can
+    // wait. Where only one thread is to be had, patience runs out and nothing waits.
+    const std::size_t slow = 3, last = 8;
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+    const auto until = [&](const std::atomic<bool>& happened) {
+        while (!happened && std::chrono::steady_clock::now() < patience) std::this_thread::yield();
+    };
+    std::atomic<bool> last_begun = false, slow_taken = false;
+    std::mutex mutex;
+    std::set<std::size_t> not_begun;
+    for (std::size_t t = 0; t < 40; ++t) not_begun.insert(t);
+    std::vector<std::size_t> taken;
+    std::size_t finished = 0, most_waiting = 0;
+    base::set_thread_count(2);
+    in_order(
+        40,
+        [&](std::size_t t) {
+            {
+                const std::scoped_lock lock(mutex);
+                not_begun.erase(t);
+                // The other thread may have fetched an earlier unit and not come this far.
+                EXPECT_LE(std::distance(not_begun.begin(), not_begun.lower_bound(t)), 1) << "before unit " << t;
+            }
+            if (t == last) last_begun = true;
+            if (t == slow) until(last_begun);
+            if (t == last) until(slow_taken);
+            const std::scoped_lock lock(mutex);
+            if (t < last) most_waiting = std::max(most_waiting, ++finished - taken.size());
+            return row_of(t);
+        },
+        [&](std::size_t t, const std::vector<CaseRow>&) {
+            const std::scoped_lock lock(mutex);
+            taken.push_back(t);
+            if (t == slow) slow_taken = true;
+        });
+    base::set_thread_count(0);
+    EXPECT_LE(most_waiting, last - slow);
+    ASSERT_EQ(taken.size(), 40U);
+    for (std::size_t t = 0; t < taken.size(); ++t) EXPECT_EQ(taken[t], t);
 }
 
 TEST(InOrder, hands_on_what_the_first_failed_take_said_and_takes_nothing_after_it) {
