@@ -41,6 +41,7 @@ endif()
 function(mimik_take_optimised target)
   if(MIMIK_SANITIZE)
     list(REMOVE_DUPLICATES ARGN)
+    list(REMOVE_ITEM ARGN adapters)  # headers alone
     list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_FILE:mimik_\\1>" OUTPUT_VARIABLE archives)
     list(JOIN archives " " archives)
     target_link_options(${target} BEFORE PRIVATE "SHELL:-Wl,--whole-archive ${archives} -Wl,--no-whole-archive")

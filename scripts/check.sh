@@ -67,7 +67,7 @@ private_headers() {  # room
 
 check_rules() {
   local room header
-  # Adapters are there for these libraries, and nothing includes them.
+  # Adapters are there for these libraries; no other header includes them.
   find "${rooms[@]}" -name '*.h' ! -path 'adapters/*' -print0 | xargs -0 grep -nE \
     '#include [<"](pcl|CGAL|vtk|opencv2|embree3|hwy|sqlite3|png|jpeglib|zlib|lzf|pugixml|nanoflann|toml\+\+|tbb|X11|EGL|GL)[./>A-Z_a-z]' &&
     fail "rules: heavy libraries stay in .cpp files: see above"
