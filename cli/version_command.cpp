@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/utsname.h>
 
+#include "base/companion.h"
 #include "base/parallel.h"
 #include "cli/command.h"
 #include "cli/figure_start.h"
@@ -36,11 +37,14 @@ nlohmann::ordered_json facts() {
                                        {"executor", MIMIK_EXECUTOR_NAME},
                                        {"threads", base::thread_count()},
                                        {"system", system_name()},
-                                       {"drawing_program", nullptr}};
+                                       {"drawing_program", nullptr},
+                                       {"opencv_program", nullptr}};
     try {
         document["drawing_program"] = find_figure_program().string();
     } catch (const std::exception&) {  // there is none, and that is said
     }
+    if (const auto file = base::find_companion("mimik-opencv"); !file.empty())
+        document["opencv_program"] = file.string();
     auto& list = document["libraries"] = nlohmann::ordered_json::object();
     for (const auto& [name, version] : libraries) list[name] = version;
     return document;

@@ -1,6 +1,10 @@
 # The libraries that the headers of adapters/ include. The build of Mimik looks for them for the tests alone, and does
 # without those that are missing; find_package(mimik COMPONENTS adapters_pcl) needs the one that it names.
 set(MIMIK_ADAPTERS cgal opencv pcl vtk)
+# What the build itself needs beside them, for companions/.
+if(PROJECT_NAME STREQUAL "mimik")
+  set(MIMIK_MORE_OF_OPENCV imgcodecs)
+endif()
 
 # mimik_adapter_library(pcl library): the targets to link, or nothing if the library is not installed. Who has them already
 # is not looked for again: PCL ends the configuration of a project that finds it twice.
@@ -25,7 +29,7 @@ function(mimik_adapter_library package result)
     elseif(package STREQUAL "cgal")
       find_package(CGAL 5.5 CONFIG QUIET)
     elseif(package STREQUAL "opencv")
-      find_package(OpenCV 4.6 CONFIG QUIET COMPONENTS core)
+      find_package(OpenCV 4.6 CONFIG QUIET COMPONENTS core ${MIMIK_MORE_OF_OPENCV})
     elseif(package STREQUAL "pcl")
       find_package(PCL 1.13 CONFIG QUIET COMPONENTS common)
     elseif(package STREQUAL "vtk")

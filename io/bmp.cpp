@@ -145,6 +145,12 @@ private:
 
 Image decode_bmp(std::span<const std::uint8_t> bytes, const std::string& name) { return Decoder(bytes, name).decode(); }
 
+bool is_run_length_bmp(std::span<const std::uint8_t> bytes) {
+    if (bytes.size() < file_header_bytes + 20) return false;
+    const auto compression = formats::load<std::uint32_t>(bytes.data() + 30);
+    return formats::load<std::uint32_t>(bytes.data() + 14) >= 40 && (compression == 1 || compression == 2);
+}
+
 std::array<int, 2> bmp_size(std::span<const std::uint8_t> bytes, const std::string& name) {
     const auto header = read_header(bytes, name);
     return {static_cast<int>(header.width), static_cast<int>(header.height)};

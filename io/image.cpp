@@ -4,6 +4,7 @@
 #include <array>
 #include <csetjmp>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 #include <png.h>
@@ -12,6 +13,7 @@
 #include "base/file.h"
 #include "io/bmp.h"
 #include "io/jpeg.h"
+#include "io/opencv_image.h"
 
 namespace mimik::io {
 namespace {
@@ -184,7 +186,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
 }
 
 std::string_view image_kind(std::span<const std::uint8_t> bytes) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> beginnings = {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 15> beginnings = {
         {{"\x89PNG\r\n\x1A\n", "PNG"},
          {"\xFF\xD8\xFF", "JPEG"},
          {"BM", "BMP"},
@@ -197,9 +199,15 @@ std::string_view image_kind(std::span<const std::uint8_t> bytes) {
          {"8BPS", "Photoshop"},
          {"DDS ", "DDS"},
          {std::string_view("\0\0\0\x0CjP  ", 8), "JPEG 2000"},
+         {std::string_view("\xFF\x4F\xFF\x51", 4), "JPEG 2000"},
+         {"\x59\xA6\x6A\x95", "Sun raster"},
          {"#?RADIANCE", "HDR"}}};
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("RIFF") && text.size() >= 12 && text.substr(8, 4) == "WEBP") return "WebP";
+    constexpr std::array netpbm = {"PBM", "PGM", "PPM", "PBM", "PGM", "PPM", "PAM"};
+    if (text.size() > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '7' &&
+        std::string_view(" \t\r\n").find(text[2]) != std::string_view::npos)
+        return netpbm[static_cast<std::size_t>(text[1] - '1')];
     for (const auto& [beginning, kind] : beginnings)
         if (text.starts_with(beginning)) return kind;
     return {};
@@ -209,9 +217,14 @@ Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name)
     const auto kind = image_kind(bytes);
     if (kind == "JPEG") return decode_jpeg(bytes, name);
     if (kind == "PNG") return decode_png(bytes, name);
-    if (kind == "BMP") return decode_bmp(bytes, name);
-    if (!kind.empty())
-        throw InputError(fmt::format("{}: is a {} image, which is not read; save it as PNG or JPEG", name, kind));
+    if (kind == "BMP" && !is_run_length_bmp(bytes)) return decode_bmp(bytes, name);
+    if (!kind.empty()) {
+        if (auto image = decode_with_opencv(bytes, name)) return *std::move(image);
+        throw InputError(
+            fmt::format("{}: is a {} image, which is not read; save it as PNG or JPEG, or install "
+                        "libopencv-dev and build mimik-opencv, which reads it",
+                        name, kind == "BMP" ? "compressed BMP" : kind));
+    }
     throw InputError(fmt::format("{}: is neither a PNG, a JPEG nor a BMP image; save it as PNG", name));
 }
 
@@ -223,7 +236,10 @@ std::array<int, 2> image_size(const std::filesystem::path& file) {
     const auto kind = image_kind(head);
     if (kind == "JPEG") return jpeg_size(base::read_bytes(file), file.string());  // may stand behind a thumbnail
     if (kind == "BMP") return bmp_size(head, file.string());
-    if (kind != "PNG") (void)decode_image(head, file.string());  // says what it is
+    if (kind != "PNG") {
+        const auto image = read_image(file);  // or it says what it is
+        return {image.width, image.height};
+    }
     const auto header = parse_png_header(head, file.string());
     return {static_cast<int>(header.width), static_cast<int>(header.height)};
 }

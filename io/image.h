@@ -27,11 +27,11 @@ void write_png(const std::filesystem::path& file, const Image& image);
 /// "PNG", "JPEG", "BMP", "TIFF", "GIF", ..., by what a file begins with; empty: no image that is known.
 [[nodiscard]] std::string_view image_kind(std::span<const std::uint8_t> bytes);
 
-/// PNG, JPEG or BMP, by what the file begins with and not by its name. @throws InputError as read_png, decode_jpeg and
-/// decode_bmp do; of other kinds it names the kind.
+/// PNG, JPEG or BMP, by what the file begins with and not by its name, and what OpenCV reads where mimik-opencv is
+/// built (io/opencv_image.h). @throws InputError as decode_png and its like; of kinds not read it names the kind.
 [[nodiscard]] Image read_image(const std::filesystem::path& file);
 [[nodiscard]] Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name);
-/// Width and height from the header alone.
+/// Width and height; of PNG, JPEG and BMP from the header alone.
 [[nodiscard]] std::array<int, 2> image_size(const std::filesystem::path& file);
 /// For files that hold a PNG: a PNG as it is, another image or a PNG without its last chunk encoded anew. All are
 /// decoded. @throws InputError as read_image.

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # setup.sh [--check] [--bench] [--adapters]: installs the Debian 12 packages that Mimik is built and run with; does
 # nothing where they are there. --check adds what scripts/check.sh needs (clang tools), --bench what scripts/bench.sh
-# compares with, --adapters the two libraries of adapters/ that nothing else needs. Needs root or sudo to install.
+# compares with, --adapters the two libraries of adapters/ and companions/ that nothing else needs. Needs root or sudo to
+# install.
 set -euo pipefail
 
 packages=(
