@@ -20,8 +20,7 @@ enum class Severity {
 /// One thing that is wrong, and how to mend it.
 struct Finding {
     Severity severity = Severity::note;
-    std::string
-        kind;  ///< stable word for programs: "unit", "frame", "sides", "holes", ... (docs/database.md lists them)
+    std::string kind;   ///< stable word for programs: "unit", "frame", "sides", ... (docs/database.md lists them)
     std::string what;   ///< with the value
     std::string where;  ///< the file, or the landmark
     std::string mend;
@@ -35,8 +34,8 @@ struct DoctorOptions {
     double max_hole_mm = 15.0;  ///< of what a hole takes of the skin; more gets a warning (see find_holes)
     double spike_mm = 4.0;      ///< as CleaningOptions of preprocessing, which removes the spikes (geometry/spikes.h)
     double max_spike_share = 0.002;  ///< of the valid points; more get a warning
-    double landmark_off_scan_mm =
-        2.0;  ///< from the surface (database/landmark_distance.h); more gets a warning, five times as much an error
+    /// From the surface (database/landmark_distance.h); more gets a warning, five times as much an error.
+    double landmark_off_scan_mm = 2.0;
     double order_tolerance_mm = 2.0;  ///< landmarks may lie this much in the wrong order: closed lips, marking noise
     int min_points = 2000;            ///< a face at the usual 0.8 mm has 35,000
     template <class Self, class Visit>

@@ -15,12 +15,10 @@ namespace mimik::database {
 /// `scan` and `landmarks` are paths relative to the manifest, inside its folder; `expression` is what
 /// parse_expression() reads, sides the subject's own; `sex` is m, f or empty; `unit` is mm, cm, m or inch; empty: not
 /// said. Scans of one subject and expression are numbered in the order of the file. Blanks and '_' in subject names
-/// become
-/// '-'.
+/// become '-'.
 struct Manifest {
-    std::vector<ScanEntry> scans;  ///< in the order of the file, paths absolute
-    std::vector<std::string>
-        remarks;  ///< renamed subjects, expressions that are none of the known ones or fall together
+    std::vector<ScanEntry> scans;      ///< in the order of the file, paths absolute
+    std::vector<std::string> remarks;  ///< subjects renamed, expressions that are not known or fall together
 };
 /// @throws InputError naming line, column, value and mend.
 [[nodiscard]] Manifest parse_manifest(std::string_view text, const std::filesystem::path& file);

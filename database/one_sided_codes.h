@@ -7,8 +7,8 @@
 namespace mimik::database {
 
 struct SideDecisionOptions {
-    double min_difference_mm =
-        1.5;                 ///< a posed expression repeats to about 1 mm (Johnston 2003): less than that says nothing
+    /// A posed expression repeats to about 1 mm (Johnston 2003): less than this says nothing.
+    double min_difference_mm = 1.5;
     double min_ratio = 1.3;  ///< of the larger to the smaller motion
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {

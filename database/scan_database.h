@@ -42,9 +42,9 @@ struct CodeSides {
     int own_side = 0;    ///< scans that move the corner their name says
     int other_side = 0;  ///< scans that move the other one
     int undecided = 0;
-    bool swapped =
-        false;  ///< the names are the viewer's: at least two thirds of the votes, and three of them or two
-                ///< subjects, or both sides of one AU of one subject without a vote against; ids were mirrored
+    /// The names are the viewer's, and ids were mirrored: at least two thirds of the votes say so, and three of them or
+    /// those of two subjects, or both sides of one AU of one subject without a vote against.
+    bool swapped = false;
 };
 
 /// A folder of bsNNN/ folders in Bosphorus layout, or a folder with manifest.csv (database/manifest.h). Scans are

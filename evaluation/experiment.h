@@ -48,9 +48,10 @@ struct ExperimentReport {
 /// lessons, whatever the number of expressions. Where the lessons of all subjects take more (true fields of 500
 /// subjects do), the rest is studied again, and a mean holds those of its sources once per thread. Rows go to the disk
 /// as they come.
+/// An expression of which fewer than 3 subjects are left is left out and listed.
 /// @param plan   of plan_experiment() for this workspace
 /// @param cases  where the rows are kept, one line per number; empty: nowhere that outlives the run
-/// An expression of which fewer than 3 subjects are left is left out and listed. @throws InputError if none is left.
+/// @throws InputError if no expression is left.
 [[nodiscard]] ExperimentReport run_experiment(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
                                               const ExperimentPlan& plan, const std::filesystem::path& cases = {},
                                               const std::function<void(const std::string&)>& progress = {});

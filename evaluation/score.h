@@ -20,8 +20,8 @@ inline constexpr double least_motion_mm = 1e-4;
 
 /// One method on one expression; what is not known is empty.
 struct Score {
-    std::optional<double> explained;         ///< 1 - sum err(method) / sum err(doing nothing), active zone;
-                                             ///< empty below least_motion_mm
+    /// 1 - sum err(method) / sum err(doing nothing), active zone; empty below least_motion_mm.
+    std::optional<double> explained;
     std::optional<double> explained_median;  ///< of 1 - err / err(nothing) over the cases
     std::optional<double> explained_whole;   ///< the same over the whole face
     std::optional<double> error_mm;          ///< mean over cases

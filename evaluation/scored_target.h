@@ -15,8 +15,8 @@ struct ScoredTarget {
     std::vector<std::uint32_t> vertices;  ///< scored: measured, and doing nothing does not hit the scan's border
     std::vector<std::uint8_t> in_zone;    ///< parallel to `vertices`
     std::vector<double> nothing_mm;       ///< parallel to `vertices`: distance of doing nothing
-    std::vector<geometry::Vector>
-        true_displacement_mm;                          ///< parallel to `vertices`, scanner frame; empty without a truth
+    /// Parallel to `vertices`, scanner frame; empty without a truth.
+    std::vector<geometry::Vector> true_displacement_mm;
     std::optional<geometry::SurfaceIndex> expressive;  ///< the real expressive scan, in the neutral's scanner frame
     bool whole_face = true;                            ///< score the face outside the zone, too
 

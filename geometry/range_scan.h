@@ -22,14 +22,12 @@ struct TextureCharts {
 
 /// One scan as measured: holes, spikes and background still in it. Scanner frame, mm.
 struct RangeScan {
-    int rows = 0;  ///< of the scanner's lattice; row 0 is the lowest row (chin side)
-    int cols = 0;  ///< 0 x 0: not organised (a mesh or a bare cloud)
-    std::vector<Point>
-        points_mm;  ///< [row * cols + col], NaN where the scanner measured nothing; or any order if 0 x 0
+    int rows = 0;                  ///< of the scanner's lattice; row 0 is the lowest row (chin side)
+    int cols = 0;                  ///< 0 x 0: not organised (a mesh or a bare cloud)
+    std::vector<Point> points_mm;  ///< [row * cols + col], NaN where nothing was measured; in any order if 0 x 0
     std::vector<TextureCoordinate> texture_coordinates;  ///< empty, or one per point
     Faces faces;                                         ///< only where a mesh file gave them
-    std::string texture_file;                            ///< in the scan's folder or below it; empty: no texture
-                                                         ///< (of several: the first)
+    std::string texture_file;                            ///< in the scan's folder or below; empty: none; or the first
     std::string texture_error;                           ///< why the image that the file names is not used
     std::size_t texture_seam_points = 0;                 ///< of a mesh: points with more than one texture position
     std::vector<std::string> material_files;             ///< of an OBJ: where the textures' names stand, likewise

@@ -14,8 +14,8 @@ struct SurfacePoint {
     Point position_mm = Point::Zero();
     double distance_mm = 0.0;
     std::uint32_t triangle = 0;
-    Eigen::Vector3d barycentric =
-        Eigen::Vector3d::Zero();  ///< weights of the triangle's corners; exactly 0 off an edge
+    /// Weights of the triangle's corners; exactly 0 off an edge.
+    Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
 };
 
 /// What a search looked at.

@@ -24,14 +24,14 @@ struct GlbMesh {
     std::string name = "face";
     std::vector<geometry::Point> positions_mm;
     std::vector<geometry::Vector> normals;  ///< empty: computed from the triangles
-    std::vector<geometry::TextureCoordinate>
-        texture_coordinates;                           ///< empty, or one per vertex, v up as everywhere in Mimik
+    /// Empty, or one per vertex, v up as everywhere in Mimik.
+    std::vector<geometry::TextureCoordinate> texture_coordinates;
     std::vector<std::array<std::uint8_t, 3>> colours;  ///< empty, or RGB per vertex; left out beside a texture
     std::vector<geometry::Triangle> triangles;
     std::vector<std::uint8_t> texture_png;  ///< a PNG file, embedded; empty: plain skin colour
     std::vector<MorphTarget> morph_targets;
-    std::vector<geometry::VertexAttribute>
-        attributes;  ///< kept as application's own: "origin" as _ORIGIN; 1 to 4 components
+    /// Kept as the application's own: "origin" as _ORIGIN; 1 to 4 components.
+    std::vector<geometry::VertexAttribute> attributes;
     std::vector<std::pair<std::string, std::string>> extras;        ///< kept in mesh.extras beside targetNames
     std::vector<std::pair<std::string, std::string>> asset_extras;  ///< kept in asset.extras, e.g. the target's name
 };

@@ -32,14 +32,14 @@ enum class Normalisation {
 struct ModelOptions {
     Normalisation normalisation = Normalisation::similarity;
     geometry::SplineKernel kernel = geometry::SplineKernel::r;
-    double smoothing = 30.0;  ///< of the landmark splines, unit of the kernel: landmarks are marked to 0.5-1 mm only,
-                              ///< and of 0, 10, 30 mm the last measured best
-    bool anchors = true;      ///< points that the AU leaves alone hold still in the neutral-to-expressive map
+    /// Of the landmark splines, unit of the kernel. Landmarks are marked to 0.5-1 mm only, and of 0, 10, 30 mm the last
+    /// measured best.
+    double smoothing = 30.0;
+    bool anchors = true;            ///< points that the AU leaves alone hold still in the neutral-to-expressive map
     bool wrinkle_points = true;     ///< thesis 5.5.2
     bool coverage_points = true;    ///< further points that cover the active zone evenly
     bool snap_to_vertices = false;  ///< move points to the nearest vertex (thesis) instead of the nearest surface point
-    bool place_on_average =
-        true;  ///< place controls on the average face and carry them to the source; else on the source
+    bool place_on_average = true;   ///< controls are placed on the average face and carried over; else on the source
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {

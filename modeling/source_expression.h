@@ -16,8 +16,8 @@ struct ExpressionSource {
 };
 
 /// The scan of `subject` that an expression is taken from: of it, or for one side ("12L") of both sides, if the subject
-/// was not asked for one. @throws InputError if the
-/// subject or the expression is missing, listing what there is.
+/// was not asked for one.
+/// @throws InputError if the subject or the expression is missing, listing what there is.
 [[nodiscard]] database::ScanId source_scan(const preprocessing::Workspace& workspace, const std::string& subject,
                                            const facs::Expression& expression);
 
@@ -32,11 +32,10 @@ void check_source(const preprocessing::Workspace& workspace, const ExpressionSou
                                                          const facs::Expression& expression,
                                                          const ExpressionSource& source);
 
-/// The model of an expression from the scans of a workspace.
-/// A one-sided AU is taken from the subject's one-sided scan if there is one, else from that side of the two-sided scan
-/// (thesis 6, asymmetric AUs). Subjects who must not be shown (unallowed_subjects.txt) are never a source, nor part of
-/// a mean.
-/// Scans that a mean could not use are in `unusable_scans`, with the reason; the mean is of the others.
+/// The model of an expression from the scans of a workspace. A one-sided AU is taken from the subject's one-sided scan
+/// if there is one, else from that side of the two-sided scan (thesis 6, asymmetric AUs). Subjects who must not be
+/// shown (unallowed_subjects.txt) are never a source, nor part of a mean. Scans that a mean could not use are in
+/// `unusable_scans`, with the reason; the mean is of the others.
 /// @throws InputError if a subject, its neutral or its expression is missing (the message lists what there is), or no
 /// scan of a mean can be used.
 [[nodiscard]] ExpressionModel model_from_workspace(const preprocessing::Workspace& workspace,

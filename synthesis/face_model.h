@@ -43,8 +43,8 @@ public:
     [[nodiscard]] virtual const geometry::Faces& faces() const = 0;  ///< of the skin that a scanner can see
     /// Landmark name (geometry::standard_landmark_names()) -> vertex index.
     [[nodiscard]] virtual const std::map<std::string, std::uint32_t>& landmark_vertices() const = 0;
-    /// Per vertex: a word for what skin it is ("skin", "lip", "brow", "eye" for the dark
-    /// middle of the ball, "sclera" for its white, "lid" for its rim, "nostril"), for texture and scanner holes.
+    /// Per vertex: a word for what skin it is ("skin", "lip", "brow", "eye" for the dark middle of the ball, "sclera"
+    /// for its white, "lid" for its rim, "nostril"), for texture and scanner holes.
     [[nodiscard]] virtual const std::vector<std::string>& vertex_regions() const = 0;
 
     /// `spread` scales the identity variance: 1 = the population, 0 = the mean face.

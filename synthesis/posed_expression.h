@@ -21,8 +21,8 @@ struct PosedExpression {
     std::string group;                     ///< "LFAU", "UFAU", "E"; the neutral face has group and code "N"
     std::string code;                      ///< "12", "12L", "HAPPY"; sides are the subject's own
     std::vector<ShapeWeight> main_shapes;  ///< what the action unit is
-    std::vector<ShapeWeight>
-        co_activated;                    ///< what moves with it in untrained people: 2 to 4 shapes of 6-20 % +- 6-12 %
+    /// What moves with it in untrained people: 2 to 4 shapes of 6-20 % +- 6-12 %.
+    std::vector<ShapeWeight> co_activated;
     std::map<int, double> action_units;  ///< AU -> strength; what an expert would score
 };
 
