@@ -37,12 +37,7 @@ struct Request {
 
 io::MeshFile read_surface(const std::filesystem::path& file) {
     auto content = io::read_mesh_file(file, io::LengthUnit::millimetre, io::MeshParts::all, io::BadTexture::report);
-    if (io::mesh_format(file) != io::MeshFormat::pcd) return content;
-    if (const auto dropped = io::drop_unmeasured(content); dropped > 0)
-        content.remarks.push_back(
-            fmt::format("{}: {} points that were not measured (NaN) are left out", file.string(), dropped));
-    if (content.mesh.vertices_mm.empty())
-        throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", file.string()));
+    if (io::mesh_format(file) == io::MeshFormat::pcd) io::drop_unmeasured(content, file.string());
     return content;
 }
 
@@ -131,14 +126,15 @@ void run(const Request& request) {
     auto& test = test_file.mesh;
     const auto& reference = reference_file.mesh;
     if (reference.faces.size() == 0)
-        throw InputError(
-            fmt::format("{}: the reference has {} vertices but no face; distances need a surface: give a mesh",
-                        request.reference.string(), reference.vertices_mm.size()));
+        throw InputError(fmt::format("{}: the reference has {} but no face; distances need a surface: give a mesh",
+                                     request.reference.string(),
+                                     base::counted(reference.vertices_mm.size(), "vertex", "vertices")));
     const auto distance =
         naming_any({request.test, request.reference}, [&] { return evaluation::surface_distance(test, reference); });
     if (const auto loose = test.faces.size() > 0 ? vertices_without_face(test) : 0; loose > 0)
-        remarks.push_back(
-            fmt::format("{}: {} vertices belong to no face and count all the same", request.test.string(), loose));
+        remarks.push_back(fmt::format(
+            "{}: {} all the same", request.test.string(),
+            base::counted(loose, "vertex belongs to no face and counts", "vertices belong to no face and count")));
     if (!request.output.empty())
         write_distances(request, std::move(test), test_file.frame, distance.test_to_reference, remarks);
     if (!request.common.quiet)

@@ -35,16 +35,18 @@ void scale_lengths(MeshFile& file, LengthUnit unit) {
     for (auto& p : file.mesh.vertices_mm) p *= millimetres_per(unit);
 }
 
-void check_vertices(const MeshFile& file, MeshFormat format, const std::string& name) {
+/// A lattice keeps its points without a position; elsewhere they go, unless they are part of the surface.
+void settle_vertices(MeshFile& file, MeshFormat format, const std::string& name) {
     const auto& vertices = file.mesh.vertices_mm;
     if (vertices.empty()) throw InputError(fmt::format("{}: there is no vertex in it; is it the right file?", name));
-    if (format == MeshFormat::pcd) return;  // NaN marks what was not measured
-    for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (format == MeshFormat::pcd) return;
+    for (const auto i : file.mesh.faces.corners)
         if (!vertices[i].allFinite())
             throw InputError(
-                fmt::format("{}: vertex {} (counted from 0) is ({}, {}, {}), not a finite position; delete it or "
-                            "export the mesh again",
+                fmt::format("{}: vertex {} (counted from 0) is a corner of a face and is ({}, {}, {}), not a finite "
+                            "position; delete it or export the mesh again",
                             name, i, vertices[i].x(), vertices[i].y(), vertices[i].z()));
+    drop_unmeasured(file, name);
 }
 
 /// The surface does not need its texture: a position that is no number becomes (0, 0).
@@ -59,8 +61,9 @@ void mend_texture(MeshFile& file, const std::string& name) {
         ++mended;
     }
     if (mended > 0)
-        file.remarks.push_back(
-            fmt::format("{}: {} texture positions are not finite; they become (0, 0)", name, mended));
+        file.remarks.push_back(fmt::format("{}: {} (0, 0)", name,
+                                           base::counted(mended, "texture position is not finite; it becomes",
+                                                         "texture positions are not finite; they become")));
 }
 
 /// Attributes have names, each another.
@@ -86,14 +89,15 @@ void check_parts_fit(const Mesh& mesh, const std::string& name) {
         throw InputError(fmt::format("{}: not written: {}", name, what));
     };
     if (!mesh.colours.empty() && mesh.colours.size() != n)
-        refuse(fmt::format("{} colours for {} vertices", mesh.colours.size(), n));
+        refuse(fmt::format("{} for {} vertices", base::counted(mesh.colours.size(), "colour"), n));
     const auto& faces = mesh.faces;
     if (faces.texture_corners.empty()) {
         if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != n)
-            refuse(fmt::format("{} texture positions for {} vertices", mesh.texture_coordinates.size(), n));
+            refuse(fmt::format("{} for {} vertices", base::counted(mesh.texture_coordinates.size(), "texture position"),
+                               n));
     } else if (faces.texture_corners.size() != faces.corners.size()) {
-        refuse(
-            fmt::format("{} texture corners for {} face corners", faces.texture_corners.size(), faces.corners.size()));
+        refuse(fmt::format("{} for {}", base::counted(faces.texture_corners.size(), "texture corner"),
+                           base::counted(faces.corners.size(), "face corner")));
     }
     for (const auto corner : faces.corners)
         if (corner >= n) refuse(fmt::format("a face names vertex {} of {}", corner, n));
@@ -107,8 +111,9 @@ void check_parts_fit(const Mesh& mesh, const std::string& name) {
                                    base::in_quotes(mesh.attributes[k].name)));
     for (const auto& attribute : mesh.attributes)
         if (attribute.components < 1 || attribute.values.size() != n * static_cast<std::size_t>(attribute.components))
-            refuse(fmt::format("attribute {} has {} values for {} vertices of {} components",
-                               base::in_quotes(attribute.name), attribute.values.size(), n, attribute.components));
+            refuse(fmt::format("attribute {} has {} for {} vertices of {}", base::in_quotes(attribute.name),
+                               base::counted(attribute.values.size(), "value"), n,
+                               base::counted(attribute.components, "component")));
     for (std::size_t i = 0; i < n; ++i)
         if (!mesh.vertices_mm[i].allFinite()) refuse(fmt::format("vertex {} is not a finite position", i));
 }
@@ -201,20 +206,23 @@ MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, con
     }();
     if (parts == MeshParts::without_attributes) file.mesh.attributes.clear();
     scale_lengths(file, unit);
-    check_vertices(file, format, name);
+    settle_vertices(file, format, name);
     mend_texture(file, name);
     name_attributes(file, name);
     return file;
 }
 
-std::size_t drop_unmeasured(MeshFile& file) {
+void drop_unmeasured(MeshFile& file, const std::string& name) {
     auto& mesh = file.mesh;
-    const auto all = mesh.vertices_mm.size();
+    const bool texture_of_corners = !mesh.faces.texture_corners.empty();
+    const bool texture_of_vertices = !texture_of_corners && !mesh.texture_coordinates.empty();
+    std::vector<std::uint32_t> place(mesh.vertices_mm.size(), 0);  // among those that are kept
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+    for (std::size_t i = 0; i < place.size(); ++i) {
         if (!mesh.vertices_mm[i].allFinite()) continue;
+        place[i] = static_cast<std::uint32_t>(kept);
         mesh.vertices_mm[kept] = mesh.vertices_mm[i];
-        if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates[kept] = mesh.texture_coordinates[i];
+        if (texture_of_vertices) mesh.texture_coordinates[kept] = mesh.texture_coordinates[i];
         if (!mesh.colours.empty()) mesh.colours[kept] = mesh.colours[i];
         for (auto& attribute : mesh.attributes) {
             const auto n = static_cast<std::size_t>(attribute.components);
@@ -222,13 +230,19 @@ std::size_t drop_unmeasured(MeshFile& file) {
         }
         ++kept;
     }
+    file.rows = file.cols = 0;
+    const auto dropped = place.size() - kept;
+    if (kept == 0) throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", name));
+    if (dropped == 0) return;
+    for (auto& corner : mesh.faces.corners) corner = place[corner];
     mesh.vertices_mm.resize(kept);
-    if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates.resize(kept);
+    if (texture_of_vertices) mesh.texture_coordinates.resize(kept);
     if (!mesh.colours.empty()) mesh.colours.resize(kept);
     for (auto& attribute : mesh.attributes)
         attribute.values.resize(kept * static_cast<std::size_t>(attribute.components));
-    file.rows = file.cols = 0;
-    return all - kept;
+    file.remarks.push_back(fmt::format(
+        "{}: {} left out", name,
+        base::counted(dropped, "point that was not measured (NaN) is", "points that were not measured (NaN) are")));
 }
 
 void bring_to_lps(MeshFile& file, const std::string& name) {
@@ -241,11 +255,7 @@ void bring_to_lps(MeshFile& file, const std::string& name) {
 Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit) {
     const auto format = mesh_format(file);
     auto content = decode_mesh(format, base::read_bytes(file), file.string(), unit);
-    if (format == MeshFormat::pcd) {
-        drop_unmeasured(content);
-        if (content.mesh.vertices_mm.empty())
-            throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", file.string()));
-    }
+    if (format == MeshFormat::pcd) drop_unmeasured(content, file.string());
     bring_to_lps(content, file.string());
     return std::move(content.mesh);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -27,8 +28,8 @@ enum class MeshFormat { ply, obj, stl, pcd, vtp };
 /// PLY (ASCII, both binaries), OBJ (polygons, vt, vertex colours, negative indices), STL (both, welded), PCD v0.7
 /// (ascii, binary, binary_compressed), VTP (inline or appended arrays, with or without zlib). By extension, case
 /// ignored; header and sizes are checked against the length of the file before anything is allocated. Normals are not
-/// read: they follow from the faces. Further scalar values per vertex become attributes. Points that a PCD marks as not
-/// measured (NaN) are left out; in every other format a coordinate that is not finite is an error. A mesh that says
+/// read: they follow from the faces. Further scalar values per vertex become attributes. Points that are
+/// marked as not measured (NaN) and that no face uses are left out; a corner of a face must be finite. A mesh that says
 /// that it is in RAS comes in LPS, the frame of those that say nothing.
 /// @throws InputError naming file, line or byte, field, value and mend.
 [[nodiscard]] geometry::Mesh read_mesh(const std::filesystem::path& file, LengthUnit unit = LengthUnit::millimetre);
@@ -68,8 +69,9 @@ struct MeshFile {
 [[nodiscard]] MeshFile decode_mesh(MeshFormat format, std::span<const std::uint8_t> bytes, const std::string& name,
                                    LengthUnit unit = LengthUnit::millimetre, MeshParts parts = MeshParts::all);
 
-/// Leaves out the points that a lattice marks as not measured (NaN); such a file has no faces. @return their number.
-std::size_t drop_unmeasured(MeshFile& file);
+/// Leaves out the points that are marked as not measured (NaN), a lattice with them, and says so with their number. No
+/// face may use one. @throws InputError if none is left.
+void drop_unmeasured(MeshFile& file, const std::string& name);
 
 /// Brings a mesh that says that it is in RAS into LPS, with a remark that begins with `name`.
 void bring_to_lps(MeshFile& file, const std::string& name);
@@ -84,6 +86,16 @@ struct MeshWriteOptions {
     std::vector<std::uint32_t> face_textures = {};  ///< as in MeshFile
     MadeBy made_by = {};                            ///< kept as comments (PLY, OBJ) or field data (VTP)
     std::optional<BodyFrame> frame = {};            ///< stated as Slicer does, "SPACE=RAS"; nothing: not stated
+
+    static constexpr std::size_t unlisted = 1;  // made_by
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("texture_file", self.texture_file);
+        visit("binary", self.binary);
+        visit("texture_files", self.texture_files);
+        visit("face_textures", self.face_textures);
+        visit("frame", self.frame);
+    }
 };
 
 /// PLY (double precision, attributes as extra properties), OBJ (17 digits), STL (single precision, triangles), VTP

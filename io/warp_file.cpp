@@ -50,12 +50,7 @@ bool takes_texture(const std::filesystem::path& output) {
 WarpInput read_input(const std::filesystem::path& input) {
     if (!is_csv(input)) {
         WarpInput mesh = {read_mesh_file(input, LengthUnit::millimetre, MeshParts::all, BadTexture::report), {}};
-        if (mesh_format(input) != MeshFormat::pcd) return mesh;
-        if (const auto dropped = drop_unmeasured(mesh.file); dropped > 0)
-            mesh.file.remarks.push_back(
-                fmt::format("{}: {} points that were not measured (NaN) are left out", input.string(), dropped));
-        if (mesh.file.mesh.vertices_mm.empty())
-            throw InputError(fmt::format("{}: every point is marked as not measured (NaN)", input.string()));
+        if (mesh_format(input) == MeshFormat::pcd) drop_unmeasured(mesh.file, input.string());
         return mesh;
     }
     auto table = read_points_csv(input);

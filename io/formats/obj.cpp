@@ -53,7 +53,8 @@ public:
         finish_colours();
         finish_texture();
         if (file_.texture_files.empty()) file_.face_textures.clear();
-        remark(small_faces_, "faces have fewer than 3 corners; they are left out");
+        remark(small_faces_, "face has fewer than 3 corners; it is", "faces have fewer than 3 corners; they are",
+               "left out");
         return std::move(file_);
     }
 
@@ -73,23 +74,17 @@ private:
         return true;
     }
 
-    void remark(std::size_t count, const char* what) {
-        if (count > 0) file_.remarks.push_back(fmt::format("{}: {} {}", lines_.file_name(), count, what));
+    void remark(std::size_t count, const char* one, const char* many, const char* done) {
+        if (count > 0)
+            file_.remarks.push_back(
+                fmt::format("{}: {} {}", lines_.file_name(), base::counted(count, one, many), done));
     }
 
-    /// Of a colour or texture position, which the surface does not need: NaN where it is written so.
+    /// NaN where it is written so: a point that was not measured, or what the surface does not need.
     double number_or_nan(std::string_view word, std::string_view what) {
         const auto value = base::parse_double_or_nan(word);
         if (!value)
             lines_.fail(fmt::format("{} is {}, not a number", what, word.empty() ? "missing" : base::in_quotes(word)));
-        return *value;
-    }
-
-    double number(std::string_view word, std::string_view what) {
-        const auto value = base::parse_double(word);
-        if (!value || !std::isfinite(*value))
-            lines_.fail(
-                fmt::format("{} is {}, not a finite number", what, word.empty() ? "missing" : base::in_quotes(word)));
         return *value;
     }
 
@@ -101,11 +96,11 @@ private:
             if (count == values.size()) lines_.fail("a vertex has more than 7 numbers (x y z w r g b)");
             constexpr std::array<std::string_view, 7> names = {"x",          "y",          "z",         "4th number",
                                                                "5th number", "6th number", "7th number"};
-            values[count] = count < 3 ? number(word, names[count]) : number_or_nan(word, names[count]);
+            values[count] = number_or_nan(word, names[count]);
             ++count;
         }
         if (count < 3 || count == 5)
-            lines_.fail(fmt::format("a vertex has {} numbers; it needs x y z, or x y z r g b", count));
+            lines_.fail(fmt::format("a vertex has {}; it needs x y z, or x y z r g b", base::counted(count, "number")));
         file_.mesh.vertices_mm.emplace_back(values[0], values[1], values[2]);
         if (count >= 6) {
             const auto first = count == 6 ? 3U : 4U;
@@ -202,7 +197,8 @@ private:
                                                         : std::array{colour_byte(c[0], scale), colour_byte(c[1], scale),
                                                                      colour_byte(c[2], scale)});
         }
-        remark(without, "vertices have no colour and others have; they become white");
+        remark(without, "vertex has no colour and others have; it becomes",
+               "vertices have no colour and others have; they become", "white");
     }
 
     void finish_texture() {
@@ -230,7 +226,8 @@ private:
             return;
         }
         if (const auto bare = std::count(texture.begin(), texture.end(), no_texture); bare > 0) {
-            remark(static_cast<std::size_t>(bare), "corners of faces have no texture position; they get (0, 0)");
+            remark(static_cast<std::size_t>(bare), "corner of a face has no texture position; it gets",
+                   "corners of faces have no texture position; they get", "(0, 0)");
             std::replace(texture.begin(), texture.end(), no_texture,
                          static_cast<std::uint32_t>(mesh.texture_coordinates.size()));
             mesh.texture_coordinates.emplace_back(0.0, 0.0);

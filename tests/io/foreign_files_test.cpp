@@ -139,11 +139,45 @@ TEST(ForeignPly, what_is_left_out_is_counted) {
     const auto file = decode_mesh(
         MeshFormat::ply, bytes_of(head + "4 0 1 2 3 8 0 0 1 0 1 1 0 1\n2 0 1 4 0 0 1 1\n3 0 1 2 0\nmore\n"), "p");
     EXPECT_EQ(file.mesh.faces.size(), 2U);
-    EXPECT_THAT(file.remarks, ElementsAre(HasSubstr("p: 1 faces have no texture position for each corner"),
-                                          HasSubstr("p: 1 faces have fewer than 3 corners"),
-                                          HasSubstr("p: 4 bytes behind the last")));
+    EXPECT_THAT(file.remarks,
+                ElementsAre(HasSubstr("p: 1 face has no texture position for each corner; it gets (0, 0)"),
+                            HasSubstr("p: 1 face has fewer than 3 corners; it is left out"),
+                            HasSubstr("p: 4 bytes behind the last")));
     EXPECT_EQ(file.mesh.faces.texture_corners.size(), 7U);
     EXPECT_EQ(file.mesh.texture_coordinates.size(), 5U);
+}
+
+// Scanners and modelling programs leave them behind: the surface does not need them.
+TEST(ForeignMeshes, a_vertex_without_a_position_that_no_face_uses_is_left_out_with_all_that_belongs_to_it) {
+    const auto ply = decode_mesh(
+        MeshFormat::ply,
+        bytes_of("ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+                 "property float s\nproperty float t\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                 "property float quality\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                 "nan nan nan 0 0 1 1 1 10\n0 0 0 .1 0 2 2 2 20\n1 0 0 .2 0 3 3 3 30\n1.#QNAN 0 0 .3 0 4 4 4 40\n"
+                 "1 1 0 .4 0 5 5 5 50\n3 1 2 4\n"),
+        "p");
+    ASSERT_EQ(ply.mesh.vertices_mm.size(), 3U);
+    EXPECT_EQ(ply.mesh.vertices_mm[2], Point(1, 1, 0));
+    EXPECT_THAT(ply.mesh.faces.corners, ElementsAre(0, 1, 2));
+    EXPECT_NEAR(ply.mesh.texture_coordinates.at(2).x(), 0.4, 1e-7);
+    EXPECT_THAT(ply.mesh.colours.at(1), ElementsAre(3, 3, 3));
+    EXPECT_THAT(ply.mesh.attributes.at(0).values, ElementsAre(20, 30, 50));
+    EXPECT_THAT(ply.remarks, ElementsAre("p: 2 points that were not measured (NaN) are left out"));
+
+    // Texture positions of an OBJ belong to corners, and stay.
+    const auto obj = decode_mesh(
+        MeshFormat::obj, bytes_of("v 0 0 0\nv nan nan nan\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nf 1/1 3/2 4/2\n"), "o");
+    ASSERT_EQ(obj.mesh.vertices_mm.size(), 3U);
+    EXPECT_THAT(obj.mesh.faces.corners, ElementsAre(0, 1, 2));
+    EXPECT_THAT(obj.mesh.faces.texture_corners, ElementsAre(0, 1, 1));
+    EXPECT_THAT(obj.remarks, ElementsAre("o: 1 point that was not measured (NaN) is left out"));
+}
+
+TEST(ForeignMeshes, a_cloud_loses_the_points_that_were_not_measured) {
+    const auto cloud = decode_mesh(MeshFormat::obj, bytes_of("v 0 0 0\nv inf 0 0\nv 1 1 0\n"), "o");
+    EXPECT_EQ(cloud.mesh.vertices_mm.size(), 2U);
+    EXPECT_THAT(cloud.remarks, ElementsAre("o: 1 point that was not measured (NaN) is left out"));
 }
 
 TEST(ForeignObj, what_is_left_out_is_counted) {
@@ -345,7 +379,7 @@ TEST_F(StatedFrames, of_tables_count_too) {
     const auto report =
         warp(folder_ / "plain.ply", folder_ / "out.ply", folder_ / "from_table.csv", folder_ / "to_table.tsv");
     EXPECT_LT(largest_distance(expected, read_mesh(folder_ / "out.ply").vertices_mm, Point::Zero()), 1e-9);
-    EXPECT_THAT(all_of(report.remarks), HasSubstr("1 points without a position are left out"));
+    EXPECT_THAT(all_of(report.remarks), HasSubstr("1 point without a position is left out"));
 }
 
 TEST(BodyFrames, are_found_in_comments) {

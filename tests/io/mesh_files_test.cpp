@@ -224,8 +224,11 @@ TEST(Ply, errors_name_the_file_the_place_the_value_and_the_mend) {
     EXPECT_THAT(refused(ply_xyz("ascii", "3", "end_header\n1 2 3\n4000000 500000 6000000\n")),
                 HasSubstr("has 2 of the 3 rows that the header promises"));
     EXPECT_THAT(refused(ply_xyz("ascii", "1", "end_header\n1 nan 3\n")),
-                HasSubstr("vertex 0 (counted from 0) is (1, nan, 3), not a finite position"));
-    EXPECT_THAT(refused(ply_xyz("ascii", "1", "end_header\n1 1e999 3\n")), HasSubstr("(1, inf, 3)"));
+                HasSubstr("scan: every point is marked as not measured (NaN)"));
+    const std::string face = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    EXPECT_THAT(refused(ply_xyz("ascii", "3", face + "0 0 0\n1 nan 3\n0 1 0\n3 0 1 2\n")),
+                HasSubstr("vertex 1 (counted from 0) is a corner of a face and is (1, nan, 3), not a finite position"));
+    EXPECT_THAT(refused(ply_xyz("ascii", "3", face + "0 0 0\n1 1e999 3\n0 1 0\n3 0 1 2\n")), HasSubstr("(1, inf, 3)"));
     EXPECT_THAT(
         refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n1 2\n"),
         HasSubstr("has no property 'z'"));
@@ -317,7 +320,9 @@ TEST(Obj, errors_name_the_file_the_line_and_the_value) {
         return message_of([&] { (void)decode(MeshFormat::obj, text); });
     };
     EXPECT_THAT(refused("v 0 0\n"), HasSubstr("scan: line 1: a vertex has 2 numbers"));
-    EXPECT_THAT(refused("v 0 0 0\nv 0 nan 0\n"), HasSubstr("scan: line 2: y is 'nan', not a finite number"));
+    EXPECT_THAT(refused("v 0 0 0\nv 0 two 0\n"), HasSubstr("scan: line 2: y is 'two', not a number"));
+    EXPECT_THAT(refused("v 0 0 0\nv 0 nan 0\nv 1 0 0\nf 1 2 3\n"),
+                HasSubstr("vertex 1 (counted from 0) is a corner of a face and is (0, nan, 0), not a finite position"));
     EXPECT_THAT(refused("v 0 0 0\nf 1 1 2\n"), HasSubstr("scan: line 2: vertex index is 2, but the file has 1"));
     EXPECT_THAT(refused("v 0 0 0\nf 1 1 0\n"), HasSubstr("scan: line 2: vertex index is 0"));
     EXPECT_THAT(refused("v 0 0 0\nf 1 1 -2\n"), HasSubstr("vertex index is -2; so far there are 1"));
@@ -395,7 +400,7 @@ TEST(MeshFiles, parts_that_do_not_fit_together_are_not_written) {
     EXPECT_THAT(refused([](Mesh& m) {
                     m.attributes.push_back({"d", 3, {1.0}});
                 }),
-                HasSubstr("attribute 'd' has 1 values"));
+                HasSubstr("attribute 'd' has 1 value for"));
     EXPECT_THAT(refused([](Mesh& m) { m.vertices_mm[3].x() = std::nan(""); }),
                 HasSubstr("vertex 3 is not a finite position"));
 }
