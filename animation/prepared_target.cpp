@@ -1,10 +1,10 @@
 #include "animation/prepared_target.h"
 
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "geometry/point_index.h"
 #include "preprocessing/normalisation.h"
 
 namespace mimik::animation {
@@ -15,30 +15,26 @@ using modeling::Normalisation;
 
 namespace {
 
+/// @param vertices_mm  of the surface, in the frame of the query
+std::optional<std::size_t> nearest_present(const geometry::FaceSurface& surface, std::span<const Point> vertices_mm,
+                                           const Point& query_mm) {
+    return geometry::nearest_point(vertices_mm, query_mm, [&](std::size_t v) { return surface.present[v] != 0; });
+}
+
 /// Every landmark at the nearest present vertex.
 Landmarks snapped(const geometry::FaceSurface& surface) {
     std::vector<geometry::Landmark> marks(surface.landmarks.all().begin(), surface.landmarks.all().end());
-    for (auto& mark : marks) {
-        double best = std::numeric_limits<double>::infinity();
-        Point nearest = mark.position_mm;
-        for (std::size_t v = 0; v < surface.size(); ++v)
-            if (const double d = (surface.vertices_mm[v] - mark.position_mm).squaredNorm();
-                surface.present[v] && d < best) {
-                best = d;
-                nearest = surface.vertices_mm[v];
-            }
-        mark.position_mm = nearest;
-    }
+    for (auto& mark : marks)
+        if (const auto v = nearest_present(surface, surface.vertices_mm, mark.position_mm))
+            mark.position_mm = surface.vertices_mm[*v];
     return Landmarks(std::move(marks));
 }
 
 }  // namespace
 
 geometry::Vector MaterialPoints::at(const std::vector<geometry::Vector>& field_mm, std::size_t v) const {
-    geometry::Vector value = geometry::Vector::Zero();
-    for (std::size_t c = 0; c < 3; ++c)
-        value += barycentric[v][static_cast<Eigen::Index>(c)] * field_mm[triangles[v][c]];
-    return target_from_head * value;
+    if (!place[v]) return geometry::Vector::Zero();
+    return target_from_head * on_truth.at(field_mm, *place[v]);
 }
 
 struct PreparedTarget::Parts {
@@ -71,20 +67,13 @@ struct PreparedTarget::Parts {
     }
 
     [[nodiscard]] MaterialPoints locate() const {
-        const geometry::SurfaceIndex true_surface(truth->vertices_mm, geometry::triangulate(truth->faces));
-        const auto triangles = true_surface.triangles();
-        std::vector<Point> queries;
-        for (std::size_t v = 0; v < surface.size(); ++v)
-            if (surface.present[v]) queries.push_back(surface.vertices_mm[v]);
-        const auto hits = true_surface.closest(queries);
         MaterialPoints points{{}, {}, truth->scanner_from_head.linear()};
-        std::size_t k = 0;
+        std::vector<Point> queries;
         for (std::size_t v = 0; v < surface.size(); ++v) {
-            const bool present = surface.present[v] != 0;
-            points.triangles.push_back(present ? triangles[hits[k].triangle] : geometry::Triangle{0, 0, 0});
-            points.barycentric.push_back(present ? hits[k].barycentric : Eigen::Vector3d(Eigen::Vector3d::Zero()));
-            k += present ? 1 : 0;
+            points.place.push_back(surface.present[v] ? std::optional(queries.size()) : std::nullopt);
+            if (surface.present[v]) queries.push_back(surface.vertices_mm[v]);
         }
+        points.on_truth = database::material_points(*truth, queries);
         return points;
     }
 };
@@ -141,18 +130,8 @@ const MaterialPoints& PreparedTarget::material_points() const {
 }
 
 Point nearest_vertex(const PreparedTarget& target, const NormalisedTarget& normalised, const Point& query_mm) {
-    // One answer is asked for per control point: looking at every vertex costs less than building a tree.
-    double best = std::numeric_limits<double>::infinity();
-    std::size_t nearest = 0;
-    for (std::size_t v = 0; v < normalised.vertices_mm.size(); ++v) {
-        if (!target.surface().present[v]) continue;
-        const double d = (normalised.vertices_mm[v] - query_mm).squaredNorm();
-        if (d < best) {
-            best = d;
-            nearest = v;
-        }
-    }
-    return normalised.vertices_mm[nearest];
+    const auto& vertices_mm = normalised.vertices_mm;
+    return vertices_mm[nearest_present(target.surface(), vertices_mm, query_mm).value_or(0)];
 }
 
 }  // namespace mimik::animation

@@ -26,11 +26,11 @@ struct NormalisedTarget {
 
 /// Where the vertices of a target lie on its true neutral surface: carries any subject's true field over.
 struct MaterialPoints {
-    std::vector<geometry::Triangle> triangles;  ///< per vertex
-    std::vector<Eigen::Vector3d> barycentric;   ///< per vertex; zero where the vertex is not present
-    Eigen::Matrix3d target_from_head;           ///< turns the truth's vectors into the target's frame
+    database::MaterialPoints on_truth;              ///< of the vertices that are present, one after another
+    std::vector<std::optional<std::size_t>> place;  ///< per vertex: which of them it is
+    Eigen::Matrix3d target_from_head;               ///< turns the truth's vectors into the target's frame
 
-    /// What a field on the true surface (head frame) does at vertex v, in the target's frame.
+    /// What a field on the true surface (head frame) does at vertex v, in the target's frame; zero if v is not present.
     [[nodiscard]] geometry::Vector at(const std::vector<geometry::Vector>& field_mm, std::size_t v) const;
 };
 

@@ -129,6 +129,14 @@ std::string read_text_head(const std::filesystem::path& file, std::size_t max_by
     return read_first<std::string>(file, std::min<std::uintmax_t>(size_of(file), max_bytes));
 }
 
+std::string file_stamp(const std::filesystem::path& file) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    if (error) return "absent";
+    const auto time = std::filesystem::last_write_time(file, error);
+    return error ? "absent" : fmt::format("{} {}", size, time.time_since_epoch().count());
+}
+
 bool is_there(const std::filesystem::path& path) {
     std::error_code ignored;
     return std::filesystem::exists(path, ignored);

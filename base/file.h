@@ -26,6 +26,9 @@ namespace mimik::base {
 /// too long, a folder that may not be entered).
 [[nodiscard]] bool is_there(const std::filesystem::path& path);
 
+/// A file that did not change has the same size and time: cheap to ask of thousands. "absent": there is none.
+[[nodiscard]] std::string file_stamp(const std::filesystem::path& file);
+
 /// Writes to a temporary beside `file`, then renames: nobody ever sees half a file. Folders are made. The stream has
 /// the classic locale. @throws InputError naming the file if it cannot be written.
 void write_atomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);

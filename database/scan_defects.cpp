@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "database/doctor.h"
+#include "geometry/box.h"
 #include "geometry/disjoint_sets.h"
 #include "geometry/face_axes.h"
 #include "geometry/topology.h"
@@ -21,16 +22,8 @@
 namespace mimik::database {
 namespace {
 
-using Box = Eigen::AlignedBox3d;
-
-Box box_of(std::span<const geometry::Point> points) {
-    Box box;
-    for (const auto& p : points) box.extend(p);
-    return box;
-}
-
 void add_hole(HoleReport& report, std::vector<geometry::Point> rim) {
-    const Box box = box_of(rim);
+    const auto box = geometry::box_of(rim);
     ++report.count;
     report.rims_mm.push_back(std::move(rim));
     if (box.diagonal().norm() <= report.largest_mm) return;
@@ -145,7 +138,7 @@ HoleReport holes_of_mesh(const geometry::RangeScan& scan) {
     for (const auto vertex : on_rim) rims[sets.root(vertex)].push_back(scan.points_mm[vertex]);
     if (rims.size() < 2) return report;
     const auto outline = std::max_element(rims.begin(), rims.end(), [](const auto& a, const auto& b) {
-        return box_of(a.second).diagonal().norm() < box_of(b.second).diagonal().norm();
+        return geometry::box_of(a.second).diagonal().norm() < geometry::box_of(b.second).diagonal().norm();
     });
     for (auto it = rims.begin(); it != rims.end(); ++it)
         if (it != outline) add_hole(report, std::move(it->second));
@@ -168,7 +161,7 @@ SkinHole worst_skin_hole(const HoleReport& holes, const geometry::Landmarks& lan
         std::copy_if(rim.begin(), rim.end(), std::back_inserter(skin),
                      [&](const auto& p) { return !ordinary.hold(p); });
         if (skin.empty()) continue;
-        const Box box = box_of(skin);
+        const auto box = geometry::box_of(skin);
         if (box.diagonal().norm() > worst.size_mm) worst = {box.diagonal().norm(), box.center()};
     }
     return worst;

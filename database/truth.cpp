@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "geometry/surface_index.h"
 #include "io/json_values.h"
 #include "io/mesh_io.h"
 
@@ -26,12 +27,21 @@ constexpr const char* mend = "synthesize the database again";
 
 bool Truth::has(const database::ScanId& id) const { return std::find(scans.begin(), scans.end(), id) != scans.end(); }
 
-std::vector<geometry::Point> TrueScan::head_vertices_mm() const {
-    const auto head_from_scanner = scanner_from_head.inverse();
-    std::vector<geometry::Point> head;
-    head.reserve(vertices_mm.size());
-    for (const auto& vertex : vertices_mm) head.emplace_back(head_from_scanner * vertex);
-    return head;
+geometry::Vector MaterialPoints::at(std::span<const geometry::Vector> field, std::size_t k) const {
+    geometry::Vector value = geometry::Vector::Zero();
+    for (std::size_t c = 0; c < 3; ++c) value += barycentric[k][static_cast<Eigen::Index>(c)] * field[triangles[k][c]];
+    return value;
+}
+
+MaterialPoints material_points(const TrueScan& scan, std::span<const geometry::Point> points_mm) {
+    const geometry::SurfaceIndex surface(scan.vertices_mm, geometry::triangulate(scan.faces));
+    const auto triangles = surface.triangles();
+    MaterialPoints points;
+    for (const auto& hit : surface.closest(points_mm)) {
+        points.triangles.push_back(triangles[hit.triangle]);
+        points.barycentric.push_back(hit.barycentric);
+    }
+    return points;
 }
 
 Truth open_truth(const fs::path& database_root) {
@@ -68,8 +78,8 @@ Truth decode_truth(std::string_view text, const std::string& name) {
             corners.clear();
             for (const auto& corner : face) corners.push_back(vertex(corner, "a corner in face_model.faces"));
             if (corners.size() < 3)
-                throw InputError(
-                    fmt::format("a face of face_model.faces has {} corners, not 3 or more; {}", corners.size(), mend));
+                throw InputError(fmt::format("a face of face_model.faces has {}, not 3 or more; {}",
+                                             base::counted(corners.size(), "corner"), mend));
             truth.faces.add(corners);
         }
         truth.vertex_regions.assign(vertices, "skin");
@@ -128,8 +138,9 @@ TrueScan load_true_scan(const Truth& truth, const database::ScanId& id) {
         throw InputError(fmt::format("{}: scan is {}, not {}; {}", file.string(), scan.id.name(), id.name(), mend));
     auto mesh = io::read_mesh(mesh_file);
     if (mesh.vertices_mm.size() != truth.vertex_regions.size())
-        throw InputError(fmt::format("{}: {} vertices, truth.json says {}; {}", mesh_file.string(),
-                                     mesh.vertices_mm.size(), truth.vertex_regions.size(), mend));
+        throw InputError(fmt::format("{}: {}, truth.json says {}; {}", mesh_file.string(),
+                                     base::counted(mesh.vertices_mm.size(), "vertex", "vertices"),
+                                     truth.vertex_regions.size(), mend));
     scan.vertices_mm = std::move(mesh.vertices_mm);
     scan.faces = std::move(mesh.faces);
     const auto attribute = std::find_if(mesh.attributes.begin(), mesh.attributes.end(),

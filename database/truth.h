@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,9 +52,19 @@ struct TrueScan {
     geometry::Landmarks landmarks;                  ///< scanner frame, free of jitter
     std::map<std::string, double> shape_weights;
     double amplitude = 1.0, asymmetry = 0.0;
-
-    [[nodiscard]] std::vector<geometry::Point> head_vertices_mm() const;
 };
+
+/// Where points lie on a true surface. A vertex is the same material point in all true scans, so these carry a field of
+/// any of them.
+struct MaterialPoints {
+    std::vector<geometry::Triangle> triangles;
+    std::vector<Eigen::Vector3d> barycentric;
+
+    /// What a field on the vertices does at point k, in the frame of the field.
+    [[nodiscard]] geometry::Vector at(std::span<const geometry::Vector> field, std::size_t k) const;
+};
+/// The nearest place on the surface for each point. @param points_mm  scanner frame of the scan
+[[nodiscard]] MaterialPoints material_points(const TrueScan& scan, std::span<const geometry::Point> points_mm);
 
 /// @throws InputError naming the file if the folder is not a synthetic database or its truth is of another schema.
 [[nodiscard]] Truth open_truth(const std::filesystem::path& database_root);

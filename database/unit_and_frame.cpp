@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "database/doctor_report.h"
+#include "geometry/box.h"
 #include "geometry/face_axes.h"
 #include "geometry/statistics.h"
 
@@ -47,10 +48,7 @@ std::optional<double> size_ratio(const Landmarks& marks) {
 constexpr double usual_extent_mm = 270.0;  // a face with hair and neck has 200 to 350 mm across
 
 double extent_ratio(const geometry::RangeScan& scan) {
-    Eigen::AlignedBox3d box;
-    for (const auto& p : scan.points_mm)
-        if (p.allFinite()) box.extend(p);
-    return box.diagonal().norm() / usual_extent_mm;
+    return geometry::box_of(scan.points_mm).diagonal().norm() / usual_extent_mm;
 }
 
 struct Unit {

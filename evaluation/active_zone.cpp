@@ -8,7 +8,6 @@
 #include "base/errors.h"
 #include "facs/expression_zone.h"
 #include "geometry/landmark_spline.h"
-#include "geometry/surface_index.h"
 #include "preprocessing/nearest_on_average.h"
 
 namespace mimik::evaluation {
@@ -35,20 +34,12 @@ std::vector<Point> average_vertices_on(const AverageFace& average, const Face& f
 std::vector<Vector> true_motion_on_average(const AverageFace& average, const Face& neutral,
                                            const database::TrueScan& true_neutral,
                                            std::span<const Vector> true_field_mm) {
-    const geometry::SurfaceIndex surface(true_neutral.vertices_mm, geometry::triangulate(true_neutral.faces));
-    const auto triangles = surface.triangles();
-    const auto hits = surface.closest(average_vertices_on(average, neutral));
+    const auto points = database::material_points(true_neutral, average_vertices_on(average, neutral));
     const Eigen::Matrix3d average_from_head =
         neutral.average_from_scan.linear() * true_neutral.scanner_from_head.linear();
     std::vector<Vector> motion(average.grid.size(), Vector::Zero());
-    for (std::size_t v = 0; v < motion.size(); ++v) {
-        if (!average.grid.inside(v)) continue;
-        const auto& t = triangles[hits[v].triangle];
-        Vector displacement = Vector::Zero();
-        for (std::size_t k = 0; k < 3; ++k)
-            displacement += hits[v].barycentric[static_cast<Eigen::Index>(k)] * true_field_mm[t[k]];
-        motion[v] = average_from_head * displacement;
-    }
+    for (std::size_t v = 0; v < motion.size(); ++v)
+        if (average.grid.inside(v)) motion[v] = average_from_head * points.at(true_field_mm, v);
     return motion;
 }
 

@@ -66,19 +66,6 @@ animation::LessonPointer LessonBook::lesson(std::size_t method, std::size_t k) c
 
 namespace {
 
-/// In batches, and within a batch one face per thread: only what `keep` keeps stays, in the order of the scans.
-template <typename Take, typename Keep>
-void in_batches(std::span<const ScanId> scans, const Take& take, const Keep& keep) {
-    constexpr std::size_t batch = 16;
-    for (std::size_t begin = 0; begin < scans.size(); begin += batch) {
-        std::vector<std::invoke_result_t<Take, const ScanId&>> taken(std::min(batch, scans.size() - begin));
-        base::parallel_for(taken.size(), 1, [&](std::size_t first, std::size_t last) {
-            for (std::size_t k = first; k < last; ++k) taken[k] = take(scans[begin + k]);
-        });
-        for (auto& one : taken) keep(one);
-    }
-}
-
 std::vector<Vector> true_motion(const PerformanceReader& reader, const modeling::Performance& own) {
     return true_motion_on_average(reader.workspace().average(), own.neutral, *own.true_neutral,
                                   own.true_expression->displacement_mm);
@@ -93,9 +80,10 @@ ActiveZone zone_of_unit(const PerformanceReader& reader, const facs::FacsCatalog
         if (auto id = reader.workspace().scan_of(performance.subject, unit)) scans.push_back(std::move(*id));
     TrueZone zone(reader.workspace().average());
     bool any = false;
-    in_batches(
-        scans,
-        [&](const ScanId& id) -> std::vector<Vector> {
+    base::in_batches(
+        scans.size(),
+        [&](std::size_t k) -> std::vector<Vector> {
+            const ScanId& id = scans[k];
             try {
                 return true_motion(reader, reader.read(id));
             } catch (const std::exception& e) {
@@ -151,8 +139,8 @@ Cast gather_cast(const PerformanceReader& reader, const animation::LearningTask&
     const auto& average = reader.workspace().average();
     Cast cast{task.expression, {}, {}, LessonBook(reader, task, methods, failures)};
     TrueZone zone(average);
-    in_batches(
-        performances, [&](const ScanId& id) { return take(reader, cast.lessons, id, failures); },
+    base::in_batches(
+        performances.size(), [&](std::size_t k) { return take(reader, cast.lessons, performances[k], failures); },
         [&](Taken& own) {
             if (!own.id) return;
             if (reader.has_truth()) zone.add(own.true_motion_mm);

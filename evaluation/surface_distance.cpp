@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/text.h"
+#include "geometry/box.h"
 #include "geometry/polygon_triangles.h"
 #include "geometry/statistics.h"
 
@@ -21,8 +23,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void check_mask(std::size_t mask, std::size_t vertices) {
     if (mask != 0 && mask != vertices)
-        throw InputError(
-            fmt::format("the mask has {} entries for {} vertices; give one per vertex or none", mask, vertices));
+        throw InputError(fmt::format("the mask has {} for {} vertices; give one per vertex or none",
+                                     base::counted(mask, "entry", "entries"), vertices));
 }
 
 }  // namespace
@@ -89,9 +91,7 @@ namespace {
 /// frame of a country, say, is measured near the origin. Its middle in whole numbers, so that moving it there loses
 /// nothing; zero for every other.
 Point far_origin(const Mesh& reference) {
-    Eigen::AlignedBox3d box;
-    for (const auto& p : reference.vertices_mm)
-        if (p.allFinite()) box.extend(p);
+    const auto box = geometry::box_of(reference.vertices_mm);
     constexpr double far = 100;  // surface sizes
     if (box.isEmpty() || box.center().norm() <= far * box.diagonal().norm()) return Point::Zero();
     return box.center().array().round();
@@ -108,8 +108,8 @@ std::vector<Point> moved_by(const std::vector<Point>& points, const Point& shift
 
 SurfaceDistance surface_distance(const Mesh& test, const Mesh& reference) {
     if (reference.faces.size() == 0)
-        throw InputError(fmt::format("the reference has {} vertices but no face; distances need a surface: give a mesh",
-                                     reference.vertices_mm.size()));
+        throw InputError(fmt::format("the reference has {} but no face; distances need a surface: give a mesh",
+                                     base::counted(reference.vertices_mm.size(), "vertex", "vertices")));
     if (const Point origin = far_origin(reference); !origin.isZero(0.0)) {
         Mesh near_test, near_reference;
         near_test.faces = test.faces;

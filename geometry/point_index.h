@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,5 +38,21 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// The point that lies nearest among those for which counts(index) holds; ties go to the lower index; empty: there is
+/// none. Looks at every point: of few questions that costs less than building an index.
+template <class Counts>
+std::optional<std::size_t> nearest_point(std::span<const Point> points_mm, const Point& query_mm,
+                                         const Counts& counts) {
+    std::optional<std::size_t> nearest;
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points_mm.size(); ++i) {
+        const double squared = (points_mm[i] - query_mm).squaredNorm();
+        if (!(squared < best) || !counts(i)) continue;
+        best = squared;
+        nearest = i;
+    }
+    return nearest;
+}
 
 }  // namespace mimik::geometry

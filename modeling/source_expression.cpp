@@ -76,27 +76,24 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const facs::Fac
     ExpressionMean sum;
     std::vector<std::string> faults;
     bool any = false;
-    // In batches: only the sum stays, added in the order of the subjects.
-    constexpr std::size_t batch = 16;
-    for (std::size_t begin = 0; begin < ids.size(); begin += batch) {
-        std::vector<std::optional<ExpressionModel>> measured(std::min(batch, ids.size() - begin));
-        std::vector<std::string> fault(measured.size());
-        base::parallel_for(measured.size(), 1, [&](std::size_t first, std::size_t last) {
-            for (std::size_t k = first; k < last; ++k) try {
-                    measured[k] = gauge.measure(workspace.face(workspace.neutral(ids[begin + k].subject)),
-                                                workspace.face(ids[begin + k]));
-                } catch (const std::exception& e) {
-                    fault[k] = fmt::format("{}: {}", ids[begin + k].name(), e.what());
-                }
-        });
-        for (std::size_t k = 0; k < measured.size(); ++k)
-            if (measured[k]) {
-                sum.add(*measured[k]);
-                any = true;
-            } else {
-                faults.push_back(fault[k]);
+    struct Measured {
+        std::optional<ExpressionModel> model;
+        std::string fault;  // why there is none
+    };
+    base::in_batches(
+        ids.size(),
+        [&](std::size_t k) -> Measured {
+            try {
+                return {gauge.measure(workspace.face(workspace.neutral(ids[k].subject)), workspace.face(ids[k])), {}};
+            } catch (const std::exception& e) {
+                return {std::nullopt, fmt::format("{}: {}", ids[k].name(), e.what())};
             }
-    }
+        },
+        [&](Measured& measured) {
+            if (!measured.model) return faults.push_back(std::move(measured.fault));
+            sum.add(*measured.model);
+            any = true;
+        });
     if (!any) throw InputError(fmt::format("expression '{}': {}", expression.code(), fmt::join(faults, "; ")));
     auto mean = sum.mean();
     mean.unusable_scans = std::move(faults);

@@ -12,6 +12,7 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "geometry/face_axes.h"
 #include "geometry/landmark_spline.h"
 #include "geometry/surface_index.h"
@@ -255,25 +256,26 @@ std::vector<double> depths_of(const Face& face, const Landmarks& consensus, cons
 DepthSums sum_depths(std::size_t count, const std::function<Face(std::size_t)>& load, const Landmarks& consensus,
                      const geometry::QuadGrid& grid, std::vector<std::string>& scans) {
     DepthSums sums(grid.size());
-    constexpr std::size_t batch = 16;
-    for (std::size_t begin = 0; begin < count; begin += batch) {
-        const std::size_t size = std::min(count, begin + batch) - begin;
-        std::vector<std::vector<double>> depths(size);
-        std::vector<std::string> names(size);
-        base::parallel_for_each(size, [&](std::size_t k) {
-            const Face face = load(begin + k);
-            names[k] = face.id.name();
+    struct Carried {
+        std::string name;
+        std::vector<double> depths;
+    };
+    base::in_batches(
+        count,
+        [&](std::size_t k) -> Carried {
+            const Face face = load(k);
+            auto name = face.id.name();
             try {
-                depths[k] = depths_of(face, consensus, grid);
+                return {std::move(name), depths_of(face, consensus, grid)};
             } catch (const std::exception& e) {
-                throw InputError(fmt::format("{}: cannot be carried to the average face: {}", names[k], e.what()));
+                throw InputError(
+                    fmt::format("{}: cannot be carried to the average face: {}", face.id.name(), e.what()));
             }
+        },
+        [&](Carried& carried) {
+            scans.push_back(std::move(carried.name));
+            sums.add(carried.depths, static_cast<std::size_t>(grid.cols));
         });
-        for (std::size_t k = 0; k < size; ++k) {
-            scans.push_back(names[k]);
-            sums.add(depths[k], static_cast<std::size_t>(grid.cols));
-        }
-    }
     return sums;
 }
 
@@ -334,10 +336,9 @@ Landmarks consensus_landmarks(std::span<const Landmarks> sets, int max_iteration
     for (const auto name : geometry::standard_landmark_names())
         if (2 * seen[std::string(name)] >= sets.size() && seen[std::string(name)] > 0) names.emplace_back(name);
     if (names.size() < 4)
-        throw InputError(
-            fmt::format("only {} standard landmarks stand in at least half of the neutral faces; four are "
-                        "needed (docs/formats.md lists the names)",
-                        names.size()));
+        throw InputError(fmt::format(
+            "only {} in at least half of the neutral faces; four are needed (docs/formats.md lists the names)",
+            base::counted(names.size(), "standard landmark stands", "standard landmarks stand")));
 
     // Further marks (ear lobes) and missing ones must shift neither the centre nor the size.
     std::vector<Landmarks> as_marked, aligned;

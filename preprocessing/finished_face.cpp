@@ -65,7 +65,7 @@ bool finished(const fs::path& stem, const std::string& fingerprint) {
         const auto done = read_done(stem);
         if (!done.starts_with(fingerprint + "\n")) return false;  // no need to read the rest
         auto looked_for = files_named_in(done);
-        for (auto& one : looked_for) one.stamp = file_stamp(one.file);
+        for (auto& one : looked_for) one.stamp = base::file_stamp(one.file);
         return done == done_text(fingerprint, digests_of(stem), looked_for);
     } catch (const InputError&) {
         return false;  // unreadable or gone: made again

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "geometry/box.h"
 #include "io/landmark_io.h"
 #include "io/mesh_io.h"
 #include "preprocessing/workspace_layout.h"
@@ -105,7 +105,7 @@ private:
         for (const auto& id : order) {
             const auto face = workspace_.face(id);
             const auto mesh = coloured_mesh(face);
-            if (id == first) centre_mm = middle_of(mesh);
+            if (id == first) centre_mm = geometry::box_of(mesh.vertices_mm).center();
             auto& panel = description.panels.emplace_back();
             panel.mesh = parts() / (id.name() + ".ply");
             panel.landmarks = parts() / (id.name() + ".csv");
@@ -136,15 +136,6 @@ private:
             mesh.colours.push_back(measured ? measured_colour : bridged_colour);
         }
         return mesh;
-    }
-
-    [[nodiscard]] static Point middle_of(const geometry::Mesh& mesh) {
-        Point low = Point::Constant(std::numeric_limits<double>::infinity()), high = -low;
-        for (const auto& p : mesh.vertices_mm) {
-            low = low.cwiseMin(p);
-            high = high.cwiseMax(p);
-        }
-        return 0.5 * (low + high);
     }
 
     const Workspace& workspace_;

@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "base/random_stream.h"
+#include "geometry/point_index.h"
 #include "synthesis/depth_raster.h"
 #include "synthesis/smooth_field.h"
 
@@ -156,18 +157,10 @@ geometry::Landmarks mark(const geometry::RangeScan& scan, const geometry::Landma
         const double each = scale * marking_error_mm(landmark.name) / std::numbers::sqrt2;
         const double a = each * random.normal(), b = each * random.normal();
         const Point meant = landmark.position_mm + a * across + b * along;
-        double best = invisible_mm * invisible_mm;
-        Point nearest = Point::Zero();
-        bool found = false;
-        for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
-            if (!scan.valid(i)) continue;
-            const double distance = (scan.points_mm[i] - meant).squaredNorm();
-            if (distance >= best) continue;
-            best = distance;
-            nearest = scan.points_mm[i];
-            found = true;
-        }
-        if (found) marks.push_back({landmark.name, nearest, ""});
+        const auto nearest =
+            geometry::nearest_point(scan.points_mm, meant, [&](std::size_t i) { return scan.valid(i); });
+        if (nearest && (scan.points_mm[*nearest] - meant).squaredNorm() < invisible_mm * invisible_mm)
+            marks.push_back({landmark.name, scan.points_mm[*nearest], ""});
     }
     return geometry::Landmarks(std::move(marks));
 }

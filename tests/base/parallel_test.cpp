@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <mutex>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -133,6 +134,28 @@ TEST(ParallelFor, no_more_threads_work_at_once_than_were_asked_for) {
         });
         EXPECT_LE(most, static_cast<std::size_t>(threads));
     }
+}
+
+TEST(InBatches, all_are_kept_in_their_order_and_few_are_in_memory_at_once) {
+    std::atomic<int> alive = 0, most = 0;
+    std::vector<std::size_t> kept;
+    on_threads(4, [&] {
+        in_batches(
+            50,
+            [&](std::size_t k) {
+                const int now = ++alive;
+                for (int before = most; before < now && !most.compare_exchange_weak(before, now);) continue;
+                return std::string(k, 'x');
+            },
+            [&](const std::string& taken) {
+                kept.push_back(taken.size());
+                --alive;
+            });
+    });
+    std::vector<std::size_t> all(50);
+    std::iota(all.begin(), all.end(), 0U);
+    EXPECT_EQ(kept, all);
+    EXPECT_LE(most, 16);
 }
 
 }  // namespace
