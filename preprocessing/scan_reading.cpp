@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "base/errors.h"
+#include "base/file.h"
 #include "database/bnt.h"
 #include "database/doctor.h"
 
@@ -23,8 +24,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-database::LoadedScan load_marked(const ScanEntry& entry, const std::vector<std::string>& accepted) {
-    auto loaded = database::load(entry);
+using Load = std::function<database::LoadedScan(const ScanEntry&)>;
+
+database::LoadedScan load_marked(const ScanEntry& entry, const std::vector<std::string>& accepted, const Load& load) {
+    auto loaded = load(entry);
     if (const auto& swapped = loaded.checks.sides.swapped_pairs; !swapped.empty())
         throw InputError(fmt::format("{}: left and right of {} are exchanged against the rest; exchange the labels",
                                      entry.landmarks_file.string(), fmt::join(swapped, ", ")));
@@ -64,21 +67,15 @@ bool changed_since(const fs::path& file, double time_s) {
 
 }  // namespace
 
-std::string file_stamp(const fs::path& file) {
-    std::error_code error;
-    const auto size = fs::file_size(file, error);
-    const auto time = fs::last_write_time(file, error);
-    return error ? "absent" : fmt::format("{} {}", size, time.time_since_epoch().count());
-}
-
 ScanStamps stamps_of(const ScanEntry& entry) {
     ScanStamps stamps;
-    stamps.shape = fmt::format("{} {} unit {}", file_stamp(entry.scan_file), file_stamp(entry.landmarks_file),
-                               static_cast<int>(entry.unit));
+    stamps.shape = fmt::format("{} {} unit {}", base::file_stamp(entry.scan_file),
+                               base::file_stamp(entry.landmarks_file), static_cast<int>(entry.unit));
     // Of meshes alone, whose pictures may be painted anew: raise it when they come out otherwise.
     const char* const pictures = database::is_bnt(entry.scan_file) ? "" : " pictures 1";
-    stamps.whole = fmt::format("{} sex '{}' texture '{}' {} {}{}", stamps.shape, entry.sex, entry.texture_file.string(),
-                               file_stamp(entry.texture_file), file_stamp(entry.landmarks2d_file), pictures);
+    stamps.whole =
+        fmt::format("{} sex '{}' texture '{}' {} {}{}", stamps.shape, entry.sex, entry.texture_file.string(),
+                    base::file_stamp(entry.texture_file), base::file_stamp(entry.landmarks2d_file), pictures);
     return stamps;
 }
 
@@ -87,7 +84,7 @@ const std::vector<std::string>& kinds_that_refuse() {
     return kinds;
 }
 
-ReadScan read_scan(const ScanEntry& entry, const std::vector<std::string>& accepted) {
+ReadScan read_scan(const ScanEntry& entry, const std::vector<std::string>& accepted, const Load& load) {
     constexpr int most_readings = 5;
     std::vector<LookedFor> known;  // as it was before this reading
     for (int reading = 0; reading < most_readings; ++reading) {
@@ -97,14 +94,14 @@ ReadScan read_scan(const ScanEntry& entry, const std::vector<std::string>& accep
         std::optional<database::LoadedScan> loaded;
         std::exception_ptr fault;
         try {
-            loaded = load_marked(entry, accepted);
+            loaded = load_marked(entry, accepted, load);
         } catch (const InputError&) {
             fault = std::current_exception();  // of the file, or of half a file
         }
         if (stamps_of(entry) != before) continue;
         if (fault) std::rethrow_exception(fault);
         std::vector<LookedFor> looked_for;
-        for (const auto& file : loaded->files_looked_for) looked_for.push_back({file, file_stamp(file)});
+        for (const auto& file : loaded->files_looked_for) looked_for.push_back({file, base::file_stamp(file)});
         const bool settled =
             looked_for == known || std::none_of(looked_for.begin(), looked_for.end(),
                                                 [&](const LookedFor& one) { return changed_since(one.file, begun_s); });

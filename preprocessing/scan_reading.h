@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,6 @@
 // cannot be trusted.
 
 namespace mimik::preprocessing {
-
-/// A file that did not change has the same size and time: cheap to ask for thousands of scans.
-[[nodiscard]] std::string file_stamp(const std::filesystem::path& file);
 
 /// The state of a scan's files.
 struct ScanStamps {
@@ -44,7 +42,10 @@ struct ReadScan {
 /// A scan whose files are not replaced while they are read: if they are, it is read again. A scan without landmarks,
 /// with some on the other side, or that the doctor refuses, is found out before it is gridded.
 /// @param accepted  kinds of the doctor's errors that become a remark
+/// @param load      how the files are read
 /// @throws InputError in the doctor's words; or if the files change all the time.
-[[nodiscard]] ReadScan read_scan(const database::ScanEntry& entry, const std::vector<std::string>& accepted = {});
+[[nodiscard]] ReadScan read_scan(
+    const database::ScanEntry& entry, const std::vector<std::string>& accepted = {},
+    const std::function<database::LoadedScan(const database::ScanEntry&)>& load = database::load);
 
 }  // namespace mimik::preprocessing

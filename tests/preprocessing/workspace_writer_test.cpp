@@ -158,6 +158,46 @@ TEST_F(WorkspaceWriterTest, what_a_killed_run_left_half_written_is_deleted_and_n
     EXPECT_EQ(after, before);
 }
 
+TEST_F(WorkspaceWriterTest, a_scan_that_is_replaced_behind_its_reader_is_read_again) {
+    const auto database = database::open_database(database_);
+    const auto& entry = *database.find(*database::parse_scan_name("bs001_N_N_0"));
+    const auto old_marks = database::load(entry).landmarks;
+    const auto file = base::read_text(entry.landmarks_file);
+    const auto new_marks = [&] {  // the last landmark, 5 mm higher
+        auto marks = io::read_landmarks(entry.landmarks_file);
+        auto all = std::vector(marks.all().begin(), marks.all().end());
+        all.back().position_mm.y() += 5;
+        return geometry::Landmarks(std::move(all));
+    }();
+    int readings = 0;
+    const auto read = read_scan(entry, {}, [&](const database::ScanEntry& asked) {
+        auto loaded = database::load(asked);
+        if (++readings == 1) io::write_landmarks(entry.landmarks_file, new_marks);
+        return loaded;
+    });
+    EXPECT_EQ(readings, 2);
+    EXPECT_EQ(read.stamps, stamps_of(entry));
+    double moved_mm = 0;
+    for (const auto& mark : old_marks.all())
+        moved_mm += (read.loaded.landmarks.position_mm(mark.name) - mark.position_mm).norm();
+    EXPECT_NEAR(moved_mm, 5, 1e-4);  // digits of the landmark file
+}
+
+TEST_F(WorkspaceWriterTest, a_scan_that_is_replaced_each_time_is_refused_after_five_readings) {
+    const auto database = database::open_database(database_);
+    const auto& entry = *database.find(*database::parse_scan_name("bs001_N_N_0"));
+    const auto marks = base::read_text(entry.landmarks_file);
+    int readings = 0;
+    const auto replaced = [&](const database::ScanEntry& asked) {
+        auto loaded = database::load(asked);
+        base::write_atomically(entry.landmarks_file, marks + std::string(++readings, '\n'));
+        return loaded;
+    };
+    EXPECT_THAT(message_of<InputError>([&] { (void)read_scan(entry, {}, replaced); }),
+                HasSubstr("was replaced each of the 5 times that it was read"));
+    EXPECT_EQ(readings, 5);
+}
+
 TEST_F(WorkspaceWriterTest, a_scan_that_is_replaced_while_it_is_read_is_taken_whole_or_refused) {
     const auto database = database::open_database(database_);
     const auto& entry = *database.find(*database::parse_scan_name("bs001_N_N_0"));
