@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,9 +36,9 @@ struct AnimationOptions {
     bool snap_to_vertices = false;  ///< carried points go to the nearest vertex (thesis), not the nearest surface point
     double border_mm = 12.0;        ///< width over which an AU fades at the border of its region; 0: hard cut (thesis)
     Combination combination = Combination::sum;
-    /// How much of its displacement each vertex of the target keeps, e.g. modeling::held_weights; empty: all of
-    /// it.
+    /// How much of its displacement each vertex of the target keeps, e.g. modeling::held_weights; empty: all.
     std::vector<double> keep;
+    static constexpr std::size_t unlisted = 1;  // keep
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
@@ -54,7 +55,7 @@ struct AnimationOptions {
     [[nodiscard]] static AnimationOptions thesis();
     void check() const;
 };
-static_assert(base::lists_every_field<AnimationOptions>(1));
+static_assert(base::lists_every_field<AnimationOptions>());
 
 struct WeightedExpression {
     const modeling::ExpressionModel* model = nullptr;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -17,6 +18,12 @@ struct ExportOptions {
     std::optional<geometry::Transform> average_from_scan = {};  ///< set: in the average frame; else in the scanner's
     geometry::BridgedVertices bridged = geometry::BridgedVertices::leave_out;  ///< quads over holes: not measurements
     io::MadeBy made_by = {};  ///< kept in the file: comments of PLY and OBJ, field data of VTP, asset.extras of GLB
+
+    static constexpr std::size_t unlisted = 2;  // average_from_scan, made_by
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("bridged", self.bridged);
+    }
 };
 
 /// The animated face of a scan as a mesh: quads of the grid, texture coordinates, attributes `displacement_mm` (3 per

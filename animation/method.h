@@ -91,6 +91,7 @@ public:
                                           double magnitude = 1.0);
 
 using MethodPointer = std::shared_ptr<const Method>;
+[[nodiscard]] inline std::string to_string(const MethodPointer& method) { return method->name(); }
 
 /// The methods of animation/methods/, by name.
 [[nodiscard]] std::vector<MethodPointer> known_methods();

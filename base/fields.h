@@ -23,8 +23,11 @@
 //     };
 //     static_assert(base::lists_every_field<CleaningOptions>());
 //
-// A field is a number, a bool, a text, an enum with to_string(), an optional number, or a struct with a list of its
-// own.
+// Members that are left out on purpose are counted: `static constexpr std::size_t unlisted = 1;`. Every struct of
+// options is tested, without a list that could forget one (cmake/OptionsTest.cmake).
+//
+// A field is a number, a bool, a text, anything with a to_string(), an optional one or a list of these, or a struct
+// with a list of its own.
 
 namespace mimik::base {
 
@@ -71,9 +74,11 @@ struct CountFields {
 };
 }  // namespace detail
 
-/// Whether the list has as many fields as the struct has members. @param unlisted  members that are left out on purpose
+/// Whether the list has as many fields as the struct has members, but for those that it counts as `unlisted`.
 template <HasFields Options>
-constexpr bool lists_every_field(std::size_t unlisted = 0) {
+constexpr bool lists_every_field() {
+    std::size_t unlisted = 0;
+    if constexpr (requires { Options::unlisted; }) unlisted = Options::unlisted;
     Options options{};
     detail::CountFields counter;
     Options::each_field(options, counter);
@@ -90,7 +95,7 @@ template <class T>
 std::string value_text(const T& value) {
     if constexpr (std::same_as<T, bool>)
         return value ? "on" : "off";
-    else if constexpr (std::is_enum_v<T>)
+    else if constexpr (requires { to_string(value); })
         return std::string(to_string(value));
     else if constexpr (std::convertible_to<const T&, std::string>)
         return value;
@@ -104,6 +109,13 @@ std::string value_text(const T& value) {
 template <class T>
 std::string value_text(const std::optional<T>& value) {
     return value ? value_text(*value) : std::string("none");
+}
+/// "a, b"; of an empty list "none".
+template <class T>
+std::string value_text(const std::vector<T>& values) {
+    std::string text;
+    for (const auto& value : values) text += (text.empty() ? "" : ", ") + value_text(value);
+    return text.empty() ? "none" : text;
 }
 
 /// " name value" for every field, those of nested structs as "outer.inner": equal where all fields are equal.

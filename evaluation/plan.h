@@ -26,6 +26,14 @@ struct ExperimentOptions {
     bool whole_face = true;  ///< score the face outside the zone, too
     int max_sources = 0;     ///< per target, the next ones in the list after it; 0 = all other subjects
 
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("expressions", self.expressions);
+        visit("methods", self.methods);
+        visit("reference", self.reference);
+        visit("whole_face", self.whole_face);
+        visit("max_sources", self.max_sources);
+    }
     void check() const;  ///< throws InputError
     /// AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 on the left.
     [[nodiscard]] static std::vector<facs::Expression> thesis_expressions();
@@ -52,9 +60,9 @@ struct ExperimentPlan {
     [[nodiscard]] std::vector<std::size_t> sources(std::size_t target, std::size_t participants) const;
 };
 
+/// An expression that fewer than 3 subjects show is left out and listed.
 /// @param truth  whether the database has one
-/// An expression that fewer than 3 subjects show is left out and listed. @throws InputError for bad options, an
-/// expression that the catalogue lacks, or if none is left.
+/// @throws InputError for bad options, an expression that the catalogue lacks, or if none is left.
 [[nodiscard]] ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace,
                                              const facs::FacsCatalogue& catalogue, const ExperimentOptions& options,
                                              bool truth);

@@ -50,6 +50,8 @@ private:
     std::vector<UnitOnSide> units_;
 };
 
+[[nodiscard]] inline const std::string& to_string(const Expression& expression) { return expression.code(); }
+
 /// What people write for an expression: "N", "neutral", "LFAU_12", "AU12", "AU012", "au12_L", "12L", "12LW",
 /// "AU22+AU25", "A22A25", "HAPPY". What is none of these is a word of group "OTHER": ASCII letters in upper case,
 /// characters that names of scans cannot have, and bytes that are no UTF-8, as '-'. Empty if nothing is left of it.

@@ -30,6 +30,9 @@ struct QuadGrid {
 };
 
 enum class BridgedVertices { keep, leave_out };
+[[nodiscard]] constexpr const char* to_string(BridgedVertices bridged) {
+    return bridged == BridgedVertices::keep ? "keep" : "leave_out";
+}
 
 /// The quads whose four corners are inside (and measured, if bridged ones are left out), counter-clockwise seen from
 /// the camera. Corner indices are grid indices.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -25,18 +26,26 @@ struct WarpReport {
 
 /// How landmarks of two files find each other.
 enum class PairBy { name, order };
+[[nodiscard]] constexpr const char* to_string(PairBy pair_by) { return pair_by == PairBy::name ? "name" : "order"; }
 
 struct WarpFileOptions {
     PairBy pair_by = PairBy::name;
     std::optional<BodyFrame> input_frame = {};  ///< of an input that states none
     MadeBy made_by = {};                        ///< kept in the output mesh (MeshWriteOptions::made_by)
+
+    static constexpr std::size_t unlisted = 1;  // made_by
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("pair_by", self.pair_by);
+        visit("input_frame", self.input_frame);
+    }
 };
 
 /// Warps a file: points as CSV (name,x,y,z) or a mesh (PLY, OBJ, STL, PCD, VTP), by extension, to a file of the same or
 /// another of these formats (not PCD). CSV keeps the names; points of a mesh get their number, from 0, as name. The
 /// texture images of an output face.ply or face.obj are copied beside it as face_texture.<ext>, face_texture_2.<ext>,
 /// ..., the image's extension. What is no image, or lies outside the input's folder where links lead, is not copied.
-/// Points of the input that were not measured (NaN in a PCD) are left out, with a remark.
+/// Points of the input that were not measured (NaN) are left out, with a remark.
 ///
 /// Frames: the input's coordinates stand, and the output states the frame that the input states (LPS or RAS, as Slicer
 /// does). Landmarks whose file states a frame are brought into that of the input: the one that it states, else

@@ -23,7 +23,17 @@ struct PreprocessOptions {
     std::vector<facs::Expression> expressions;  ///< to take beside the neutrals; empty: all but head rotations and
                                                 ///< occlusions (groups YR, PR, CR, O, IGN)
     std::vector<std::string> accept;  ///< kinds of the doctor's errors that refuse no scan (kinds_that_refuse())
-    void check() const;               ///< throws InputError
+
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("steps", self.steps);
+        visit("average", self.average);
+        visit("alignment", self.alignment);
+        visit("subjects", self.subjects);
+        visit("expressions", self.expressions);
+        visit("accept", self.accept);
+    }
+    void check() const;  ///< throws InputError
 };
 
 struct ScanFailure {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -22,6 +23,18 @@ struct SynthesizeOptions {
     ScannerOptions scanner;
     std::function<void(const std::string& scan)> on_scan_done = {};  ///< called from any thread
 
+    static constexpr std::size_t unlisted = 1;  // on_scan_done
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("subjects", self.subjects);
+        visit("expressions", self.expressions);
+        visit("neutrals", self.neutrals);
+        visit("repeat", self.repeat);
+        visit("seed", self.seed);
+        visit("facs_codes", self.facs_codes);
+        visit("variances", self.variances);
+        visit("scanner", self.scanner);
+    }
     void check() const;  ///< throws InputError naming field, value and range
 };
 

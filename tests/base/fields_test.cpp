@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/content_hash.h"
+#include "base/text.h"
 
 namespace mimik::base {
 namespace {
@@ -49,9 +50,18 @@ struct Forgetful {
         visit("listed", self.listed);
     }
 };
+struct Deliberate {
+    int listed = 1;
+    double not_listed = 2;
+    static constexpr std::size_t unlisted = 1;
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("listed", self.listed);
+    }
+};
 static_assert(lists_every_field<Inner>());
 static_assert(!lists_every_field<Forgetful>());
-static_assert(lists_every_field<Forgetful>(1));  // left out on purpose
+static_assert(lists_every_field<Deliberate>());
 
 TEST(Fields, one_that_is_left_out_is_found) {
     EXPECT_TRUE(lists_every_field<Outer>());  // clang 14 has no strings in constant expressions
@@ -79,6 +89,20 @@ TEST(Fields, that_differ_are_named_with_both_values_also_those_of_a_struct_withi
     EXPECT_EQ(differences[1].name, "inner.on");
     EXPECT_EQ(differences[1].second, "off");
     EXPECT_TRUE(differences[1].is_switch);
+}
+
+TEST(Fields, that_are_lists_are_shown_with_all_their_values) {
+    EXPECT_EQ(value_text(std::vector<std::string>{"bs000", "bs001"}), "bs000, bs001");
+    EXPECT_EQ(value_text(std::vector<Kernel>{Kernel::squared}), "squared");
+    EXPECT_EQ(value_text(std::vector<double>{}), "none");
+}
+
+TEST(Counted, one_thing_is_singular_and_every_other_number_is_not) {
+    EXPECT_EQ(counted(1, "face"), "1 face");
+    EXPECT_EQ(counted(0, "face"), "0 faces");
+    EXPECT_EQ(counted(2, "face"), "2 faces");
+    EXPECT_EQ(counted(1, "vertex has", "vertices have"), "1 vertex has");
+    EXPECT_EQ(counted(12, "vertex has", "vertices have"), "12 vertices have");
 }
 
 TEST(ContentHash, of_nothing_is_the_offset_of_fnv_1a_in_16_digits) {

@@ -93,10 +93,5 @@ TEST(NearestScanPoint, skips_unmeasured_points) {
     EXPECT_DOUBLE_EQ(nearest[0].distance_mm, 5);
 }
 
-TEST(Options, every_options_default_passes_its_own_check) {
-    EXPECT_NO_THROW(DoctorOptions{}.check());
-    EXPECT_NO_THROW(SideDecisionOptions{}.check());
-}
-
 }  // namespace
 }  // namespace mimik::database

@@ -64,7 +64,5 @@ TEST(BorderEdges, are_those_of_one_face_in_ascending_order) {
     EXPECT_TRUE(border_edges(Faces{}).empty());
 }
 
-TEST(Options, every_options_default_passes_its_own_check) { EXPECT_NO_THROW(ThinPlateSplineOptions{}.check()); }
-
 }  // namespace
 }  // namespace mimik::geometry

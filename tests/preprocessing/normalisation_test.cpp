@@ -80,14 +80,5 @@ TEST(SimilarityNormalisation, landmarks_on_one_line_are_refused) {
     EXPECT_THROW((void)similarity_normalisation(line, line), NumericalError);
 }
 
-TEST(Options, every_options_default_passes_its_own_check) {
-    EXPECT_NO_THROW(CleaningOptions{}.check());
-    EXPECT_NO_THROW(GriddingOptions{}.check());
-    EXPECT_NO_THROW(AverageFaceOptions{}.check());
-    EXPECT_NO_THROW(RigidAlignmentOptions{}.check());
-    EXPECT_NO_THROW(ScanSteps{}.check());
-    EXPECT_NO_THROW(PreprocessOptions{}.check());
-}
-
 }  // namespace
 }  // namespace mimik::preprocessing
