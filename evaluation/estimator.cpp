@@ -34,7 +34,8 @@ class TrueDistance : public Estimator {
 public:
     [[nodiscard]] std::string name() const override { return "true_distance"; }
     [[nodiscard]] std::vector<Measure> measure(const JudgedFace& face) const override {
-        const auto& [target, neutral, field] = face;
+        const auto& target = face.target;
+        const auto& field = face.field;
         if (target.true_displacement_mm.empty()) return {};
         double sum_mm = 0;
         for (std::size_t k = 0; k < target.vertices.size(); ++k) {
@@ -49,22 +50,31 @@ public:
     }
 };
 
-class FieldAnswers : public Estimator {
+/// What the field is like, whatever the real face did.
+class FieldItself : public Estimator {
 public:
     [[nodiscard]] std::string name() const override { return "field"; }
     [[nodiscard]] std::vector<Measure> measure(const JudgedFace& face) const override {
-        const auto& [target, neutral, field] = face;
+        const auto& target = face.target;
         std::size_t left_out = 0;
         for (std::size_t k = 0; k < target.vertices.size(); ++k)
-            if ((target.whole_face || target.in_zone[k]) && !answers(field, target.vertices[k])) ++left_out;
-        return {{target.whole_face ? "face" : "zone", "left_out", static_cast<double>(left_out), "vertices"}};
+            if ((target.whole_face || target.in_zone[k]) && !answers(face.field, target.vertices[k])) ++left_out;
+        std::vector<Measure> measures = {
+            {target.whole_face ? "face" : "zone", "left_out", static_cast<double>(left_out), "vertices"}};
+        // A crack is a fault of a method.
+        if (face.made_by_method)
+            measures.push_back({"face", "largest_step",
+                                geometry::field_extent(face.neutral, face.field.mm).largest_neighbour_step_mm, "mm"});
+        return measures;
     }
 };
 
 }  // namespace
 
 SurfaceDistances distances_to_real_scan(const JudgedFace& face) {
-    const auto& [target, neutral, field] = face;
+    const auto& target = face.target;
+    const auto& neutral = face.neutral;
+    const auto& field = face.field;
     // A vertex that stays where it was, or has no answer, has the distance of doing nothing: only the others are asked.
     std::vector<Point> queries;
     std::vector<std::size_t> asked, moved;
@@ -102,7 +112,7 @@ const std::vector<std::unique_ptr<const Estimator>>& known_estimators() {
         std::vector<std::unique_ptr<const Estimator>> all;
         all.push_back(std::make_unique<SurfaceDistance>());
         all.push_back(std::make_unique<TrueDistance>());
-        all.push_back(std::make_unique<FieldAnswers>());
+        all.push_back(std::make_unique<FieldItself>());
         return all;
     }();
     return estimators;

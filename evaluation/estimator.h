@@ -15,6 +15,7 @@ struct JudgedFace {
     const ScoredTarget& target;
     const geometry::FaceSurface& neutral;
     const geometry::DisplacementField& field;  ///< scanner frame; where it has no answer, it is scored as doing nothing
+    bool made_by_method = true;                ///< it is neither the truth's nor that of doing nothing
 };
 
 /// One number that an estimator found.
@@ -36,7 +37,7 @@ public:
 
 /// "surface_distance": mean distance of the vertices to the real expressive scan, in the zone and on the whole face.
 /// "true_distance": mean 3D distance to the true position of the same skin point, in the zone; nothing without a truth.
-/// "field": vertices without an answer.
+/// "field": vertices without an answer; of what a method made, the largest crack between neighbouring vertices.
 [[nodiscard]] const std::vector<std::unique_ptr<const Estimator>>& known_estimators();
 
 /// What "surface_distance" measures, as plain numbers.

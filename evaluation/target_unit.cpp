@@ -76,11 +76,8 @@ private:
         const auto& method = *plan_.methods[m];
         const CaseKey key{source, own_.neutral.id.subject, cast_.expression.code(), method.name()};
         const auto found = field_of(m, from, key);
-        measure(key, found.field ? *found.field : still_, found.reason);
-        // A crack is a fault of a method; a true field has none of its own.
-        if (!found.field || method.name() == baseline_method || method.needs_truth()) return;
-        const auto extent = geometry::field_extent(prepared_.surface(), found.field->mm);
-        rows_.push_back({key, "field", "face", "largest_step", extent.largest_neighbour_step_mm, "mm", ""});
+        const bool made_by_method = found.field && method.name() != baseline_method && !method.needs_truth();
+        measure(key, {scored_, prepared_.surface(), found.field ? *found.field : still_, made_by_method}, found.reason);
     }
 
     struct Found {
@@ -104,8 +101,7 @@ private:
         }
     }
 
-    void measure(const CaseKey& key, const DisplacementField& field, const std::string& no_answer) {
-        const JudgedFace judged{scored_, prepared_.surface(), field};
+    void measure(const CaseKey& key, const JudgedFace& judged, const std::string& no_answer) {
         const auto reason = no_answer.empty() ? std::string() : "scored as doing nothing: " + no_answer;
         for (const auto& estimator : known_estimators())
             for (const auto& found : estimator->measure(judged))

@@ -106,6 +106,16 @@ TEST_F(Estimators, a_vertex_without_an_answer_counts_as_doing_nothing) {
     }
 }
 
+TEST_F(Estimators, the_largest_crack_is_told_of_what_a_method_made_alone) {
+    auto torn = everywhere({0, 0, 2});
+    for (std::size_t v = 0; v < torn.size(); ++v)
+        if (neutral_.vertices_mm[v].x() > 7) torn.mm[v].z() = 5;
+    EXPECT_EQ(value(torn, "field", "face", "largest_step"), 3);
+    for (const auto& one : known_estimators())
+        for (const auto& measure : one->measure({target_, neutral_, torn, false}))
+            EXPECT_NE(measure.metric, "largest_step") << one->name();
+}
+
 TEST_F(Estimators, without_a_truth_have_no_true_distance) {
     target_.true_displacement_mm.clear();
     EXPECT_TRUE(std::isnan(true_mm(everywhere({0, 0, 2}))));
