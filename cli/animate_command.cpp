@@ -22,6 +22,7 @@
 #include "cli/regions_file.h"
 #include "cli/subject_names.h"
 #include "database/hidden_subjects.h"
+#include "database/known_databases.h"
 #include "io/json_values.h"
 #include "modeling/region_labels.h"
 #include "modeling/source_expression.h"
@@ -158,7 +159,7 @@ io::MadeBy made_by(const Arguments& arguments, const preprocessing::Workspace& w
             {"frame", arguments.frame},
             // Lists of hidden subjects are heeded wherever the mesh goes (database/file_origin.h).
             {"subjects", fmt::format("{}", fmt::join(subjects, " "))},
-            {"database", workspace.database_root().string()}};
+            {"database", database::remember_database(workspace.database_root())}};
 }
 
 void print_json(const Arguments& arguments, const preprocessing::Face& neutral, const Chosen& chosen,

@@ -13,6 +13,7 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "database/known_databases.h"
 #include "database/scan_id.h"
 #include "io/json_values.h"
 
@@ -124,7 +125,8 @@ FileOrigin origin_of(const fs::path& file) {
     try {
         for (const auto& [key, value] : sayings_of(file)) {
             if (key == "database") {
-                if (const fs::path database = value; database.is_absolute()) origin.database = database;
+                origin.place = database_of_mark(value);
+                origin.database = fs::path(value).is_absolute() ? database_mark(value) : value;
             } else if (key == "subjects") {
                 for (auto& word : words_of(value)) subjects.insert(std::move(word));
             } else if (key == "source" || key == "target") {
@@ -145,14 +147,18 @@ FileOrigin origin_of(const fs::path& file) {
 std::vector<std::pair<std::string, std::string>> said_in_files(const FileOrigin& origin) {
     std::vector<Saying> sayings;
     if (!origin.subjects.empty()) sayings.emplace_back("subjects", fmt::format("{}", fmt::join(origin.subjects, " ")));
-    if (!origin.database.empty()) sayings.emplace_back("database", origin.database.string());
+    if (!origin.place.empty())
+        sayings.emplace_back("database", remember_database(origin.place));
+    else if (!origin.database.empty())
+        sayings.emplace_back("database", origin.database);
     return sayings;
 }
 
 FileOrigin united(const FileOrigin& one, const FileOrigin& other) {
     std::set<std::string> subjects(one.subjects.begin(), one.subjects.end());
     subjects.insert(other.subjects.begin(), other.subjects.end());
-    return {{subjects.begin(), subjects.end()}, one.database.empty() ? other.database : one.database};
+    const auto& of_database = one.database.empty() ? other : one;
+    return {{subjects.begin(), subjects.end()}, of_database.database, of_database.place};
 }
 
 }  // namespace mimik::database

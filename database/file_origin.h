@@ -12,7 +12,8 @@ namespace mimik::database {
 /// "target" (the names of scans in them), and "database".
 struct FileOrigin {
     std::vector<std::string> subjects;  ///< sorted, each once
-    std::filesystem::path database;     ///< absolute; empty: not said
+    std::string database;               ///< its mark (database/known_databases.h); empty: not said
+    std::filesystem::path place;        ///< of the database on this machine; empty: not known
 };
 
 /// Reads the head of the file alone. Empty where the file says nothing, is not there, or is of another kind: who opens

@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "database/file_origin.h"
+#include "database/known_databases.h"
 #include "database/manifest.h"
 #include "database/scan_id.h"
 #include "io/json_values.h"
@@ -271,7 +272,7 @@ void refuse_hidden_at(const fs::path& file, const FileOrigin& origin) {
         }
         if (folder == folder.parent_path()) break;
     }
-    refuse_listed_in_database(file, origin.database, origin.subjects);
+    refuse_listed_in_database(file, origin.place, origin.subjects);
 }
 
 }  // namespace
@@ -338,14 +339,15 @@ FileOrigin origin_to_carry(std::span<const fs::path> files) {
         auto origin = origin_of(file);
         const auto places = places_of(file);
         if (const auto scan = parse_scan_name(file.stem().string()); scan && !places.empty()) {
-            FileOrigin by_name{{scan->subject}, {}};
+            FileOrigin by_name{{scan->subject}, {}, {}};
             auto folder = places.front().parent_path();
-            for (int level = 0; level <= levels_above_file && by_name.database.empty(); ++level) {
-                by_name.database = workspace_at(folder).database;
+            for (int level = 0; level <= levels_above_file && by_name.place.empty(); ++level) {
+                by_name.place = workspace_at(folder).database;
                 folder = folder.parent_path();
             }
             // A scan of a database: its lists lie beside it or above.
-            if (by_name.database.empty()) by_name.database = places.front().parent_path();
+            if (by_name.place.empty()) by_name.place = places.front().parent_path();
+            by_name.database = database_mark(by_name.place);
             origin = united(origin, by_name);
         }
         all = united(all, origin);

@@ -11,11 +11,12 @@
 
 #include <fmt/format.h>
 #include <sqlite3.h>
-#include <sys/stat.h>
 
 #include "base/content_hash.h"
 #include "base/errors.h"
+#include "base/file.h"
 #include "base/parallel.h"
+#include "database/known_databases.h"
 #include "io/json_values.h"
 
 namespace mimik::database {
@@ -128,13 +129,6 @@ private:
     sqlite3_stmt* statement_ = nullptr;
 };
 
-/// Size and time of a file: changed when the file is.
-std::string stamp(const fs::path& file) {
-    struct stat status {};
-    if (file.empty() || ::stat(file.c_str(), &status) != 0) return "-";
-    return fmt::format("{}@{}.{:09}", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
-}
-
 /// The first neutral scan with landmarks: what one-sided codes are judged against.
 const ScanEntry* neutral_of(const ScanDatabase& database, const ScanEntry& entry) {
     for (const auto* neutral : database.neutrals(entry.id.subject))
@@ -147,14 +141,14 @@ std::string key_of(const ScanEntry& entry) { return entry.scan_file.string() + "
 
 std::string state_of(const ScanEntry& entry) {
     return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", entry.id.name(), static_cast<int>(entry.layout),
-                       static_cast<int>(entry.unit), stamp(entry.scan_file), entry.landmarks_file.string(),
-                       stamp(entry.landmarks_file), stamp(entry.landmarks2d_file), entry.texture_file.string(),
-                       stamp(entry.texture_file));
+                       static_cast<int>(entry.unit), base::file_stamp(entry.scan_file), entry.landmarks_file.string(),
+                       base::file_stamp(entry.landmarks_file), base::file_stamp(entry.landmarks2d_file),
+                       entry.texture_file.string(), base::file_stamp(entry.texture_file));
 }
 
 /// With the files that only the scan file names: they may come, go or change while it stays.
 std::string state_with(std::string state, const ScanSummary& summary) {
-    for (const auto& file : summary.files_looked_for) state += "|" + stamp(file);
+    for (const auto& file : summary.files_looked_for) state += "|" + base::file_stamp(file);
     return state;
 }
 
@@ -338,18 +332,8 @@ ScanSummary summarise(const ScanEntry& entry) {
 }
 
 fs::path scan_index_file(const ScanDatabase& database, const ScanIndexOptions& options) {
-    fs::path folder = options.folder;
-    if (folder.empty()) {
-        // The XDG specification: a relative path in the variable is to be ignored.
-        const char* cache = std::getenv("XDG_CACHE_HOME");
-        const char* home = std::getenv("HOME");
-        if (cache && fs::path(cache).is_absolute())
-            folder = fs::path(cache) / "mimik";
-        else if (home && fs::path(home).is_absolute())
-            folder = fs::path(home) / ".cache" / "mimik";
-        else
-            return {};
-    }
+    const auto folder = options.folder.empty() ? user_cache_folder() : options.folder;
+    if (folder.empty()) return {};
     base::ContentHash hash;
     hash.add(database.root.string());
     return folder / fmt::format("catalogue-{}.sqlite", hash.text());

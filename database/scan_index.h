@@ -37,6 +37,15 @@ struct ScanIndexOptions {
     bool check = false;  ///< run the doctor where it has not seen the scan as it is now
     DoctorOptions doctor = {};
     std::function<void(const ScanEntry&)> progress = {};  ///< called once for every scan, from any thread
+
+    static constexpr std::size_t unlisted = 1;  // progress
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("folder", self.folder);
+        visit("use_cache", self.use_cache);
+        visit("check", self.check);
+        visit("doctor", self.doctor);
+    }
 };
 
 /// Summaries of the scans asked for, in their order.
@@ -50,9 +59,9 @@ struct ScanIndexResult {
 
 /// The index of a database is an SQLite file in the user's cache, one per database (named after its absolute path),
 /// never in the database. A scan is opened again when the time or size of one of its files (also of those that the scan
-/// file names), its unit, its name or (for the doctor) the options have changed, and where it could not be read. A
-/// index that is damaged is built anew; one that is locked or cannot be written is done without: it is never a
-/// reason to fail. Scans are opened in parallel.
+/// file names), its unit, its name or (for the doctor) the options have changed, and where it could not be read. An
+/// index that is damaged is built anew; one that is locked or cannot be written is done without: it is never a reason
+/// to fail. Scans are opened in parallel.
 [[nodiscard]] ScanIndexResult scan_index(const ScanDatabase& database, std::span<const ScanEntry* const> scans,
                                          const ScanIndexOptions& options = {});
 

@@ -6,6 +6,8 @@ shared=${3:-}
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
+export XDG_CACHE_HOME=$PWD.cache  # not the user's
+rm -rf "$XDG_CACHE_HOME"
 
 claim() { echo "checked: $1"; }
 fail() { echo "failed: $1"; exit 1; }

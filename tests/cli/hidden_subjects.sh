@@ -8,7 +8,7 @@ rm broken/bs002/bs002_LFAU_12_0.bnt
 head -c 1000 "$shared/db1/bs002/bs002_LFAU_12_0.bnt" >broken/bs002/bs002_LFAU_12_0.bnt
 expect_code 1 "bs002_LFAU_12_0" "$mimik" preprocess broken -o broken_work --quiet
 [ -e broken_work/faces/bs002/bs002_UFAU_4_0.json ]
-expect_code 1 "bs002_LFAU_12_0" "$mimik" scans broken --no-catalogue
+expect_code 1 "bs002_LFAU_12_0" "$mimik" scans broken --no-index
 claim "one cut scan is reported with 1, and the rest is done"
 
 echo BS001 >broken/Unallowed_Subjects.txt  # neither case is that of the scans
@@ -26,14 +26,18 @@ for extension in ply obj vtp; do
   "$mimik" animate broken_work --source mean --target bs002 --au 4 -o elsewhere/face.$extension --quiet >/dev/null
 done
 "$mimik" distance elsewhere/face.ply broken_work/average/average_face.ply -o elsewhere/far.vtp --quiet >/dev/null
+"$mimik" warp --from "$shared/db1/bs002/bs002_N_N_0.lm3" --to "$shared/db1/bs002/bs002_N_N_0.lm3" elsewhere/face.ply -o elsewhere/again.ply --quiet >/dev/null
+! grep -aFe "$PWD" -e "$shared" elsewhere/*.{ply,obj,mtl} || fail "a file tells where its database lies"
+grep -qa '^comment database: broken ([0-9a-f]\{16\})$' elsewhere/face.ply && grep -qa '^comment database: broken (' elsewhere/again.ply || fail "no word of the database"
+claim "what is passed on names its database and no folder of this machine"
 echo bs002 >>broken/Unallowed_Subjects.txt  # is heeded without another preprocessing
-for shown in broken_work/faces/bs002/bs002_N_N_0.ply elsewhere/face.ply elsewhere/face.obj elsewhere/face.vtp elsewhere/far.vtp; do
+for shown in broken_work/faces/bs002/bs002_N_N_0.ply elsewhere/face.ply elsewhere/face.obj elsewhere/face.vtp elsewhere/far.vtp elsewhere/again.ply; do
   expect_code 2 "'bs002' stands in" "$mimik" figure $shown -o hidden.png
   expect_code 2 "'bs002' stands in" "$mimik" distance $shown broken_work/average/average_face.ply -o hidden.vtp
   expect_code 2 "'bs002' stands in" "$mimik" warp --from $shown --to $shown $shown -o hidden.ply
 done
 mkdir -p folder_list && cp -rs "$shared/db1" folder_list/db && mkdir folder_list/db/unallowed_subjects.txt
-expect_code 2 "unallowed_subjects.txt: is a folder, so nobody knows whom it hides" "$mimik" scans folder_list/db --no-catalogue
+expect_code 2 "unallowed_subjects.txt: is a folder, so nobody knows whom it hides" "$mimik" scans folder_list/db --no-index
 expect_code 2 "bs002" "$mimik" animate broken_work --source mean --target bs002 --au 4 -o hidden.ply
 [ ! -e hidden.ply ] && [ ! -e hidden ] && [ ! -e hidden.png ] && [ ! -e hidden.vtp ] || fail "a file of a hidden subject"
 echo BS001 >broken/Unallowed_Subjects.txt

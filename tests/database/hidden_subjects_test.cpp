@@ -1,5 +1,6 @@
 #include "database/hidden_subjects.h"
 
+#include <cstdlib>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -7,6 +8,7 @@
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "database/known_databases.h"
 #include "database/scan_database.h"
 #include "tests/database/made_face.h"
 #include "tests/database/temporary_folder.h"
@@ -226,6 +228,41 @@ TEST_F(RefuseHiddenFile, a_mesh_that_says_whose_it_is_is_refused_wherever_it_lie
     EXPECT_THAT(write("f.json", R"({"sources": ["bs001_N_N_0"], "schema": 1})"), shown);  // a model says no database
     EXPECT_EQ(write("g.ply", "ply\ncomment target: bs001_N_N_0\ncomment database: ../db\nend_header\n"), shown);
     EXPECT_EQ(write("h.glb", "glTF"), shown);
+}
+
+TEST_F(RefuseHiddenFile, a_file_that_has_the_mark_of_its_database_is_refused_by_who_remembers_it) {
+    list("bs001\n");
+    const TemporaryFolder elsewhere, cache;
+    const char* before = std::getenv("XDG_CACHE_HOME");
+    const std::string kept = before ? before : "";
+    ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+    const auto refused_as = [&](const std::string& database) {
+        base::write_atomically(
+            elsewhere.path() / "a.ply",
+            "ply\nformat ascii 1.0\ncomment target: bs001_N_N_0\ncomment database: " + database + "\nend_header\n");
+        return message_of<InputError>([&] { refuse_hidden_file(elsewhere.path() / "a.ply"); });
+    };
+    const auto mark = database_mark(folder_.path());
+    EXPECT_EQ(mark.find(folder_.path().parent_path().string()), std::string::npos);
+    EXPECT_TRUE(mark.starts_with(folder_.path().filename().string() + " ("));
+    EXPECT_EQ(refused_as(mark), shown);  // nobody knows where that is
+    EXPECT_EQ(remember_database(folder_.path() / ""), mark);
+    EXPECT_EQ(database_of_mark(mark), folder_.path());
+    EXPECT_THAT(refused_as(mark), HasSubstr("subject 'bs001' stands in"));
+
+    // What is made of a file of an earlier version, which says the path, does not.
+    (void)refused_as(folder_.path().string());
+    const std::vector<std::filesystem::path> files = {elsewhere.path() / "a.ply"};
+    const auto said = said_in_files(origin_to_carry(files));
+    EXPECT_THAT(said, testing::Contains(testing::Pair("database", mark)));
+
+    // A memory that is of another folder is none; nor is what looks like a mark.
+    for (const auto& entry : std::filesystem::directory_iterator(cache.path() / "mimik" / "databases"))
+        base::write_atomically(entry.path(), "/somewhere/else");
+    EXPECT_TRUE(database_of_mark(mark).empty());
+    for (const char* other : {"db", "db (0123456789abcde)", "db (../../../etc/pass)", "()", ""})
+        EXPECT_TRUE(database_of_mark(other).empty()) << other;
+    before ? ::setenv("XDG_CACHE_HOME", kept.c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
 }
 
 TEST_F(RefuseHiddenFile, a_list_that_is_a_folder_is_an_error_and_hides_nobody_in_silence) {
