@@ -20,6 +20,7 @@
 #include "cli/error_report.h"
 #include "cli/notes.h"
 #include "cli/terminal.h"
+#include "database/known_databases.h"
 #include "database/scan_index.h"
 #include "io/json_values.h"
 
@@ -35,7 +36,7 @@ struct Request {
     std::string side, unit = "mm";
     std::vector<std::string> action_units;
     ScanIndexOptions index;
-    bool no_catalogue = false;
+    bool no_index = false, no_catalogue = false;  // the second is what the first was called
     bool list = false;
 };
 
@@ -51,7 +52,7 @@ struct Counts {
         if (!checked) return unreadable ? fmt::format("{} unreadable", unreadable) : "-";
         std::vector<std::string> parts;
         const auto part = [&](std::size_t count, const char* word) {
-            if (count) parts.push_back(fmt::format("{} {}{}", count, word, count == 1 ? "" : "s"));
+            if (count) parts.push_back(base::counted(count, word));
         };
         part(errors, "error");
         part(warnings, "warning");
@@ -221,8 +222,8 @@ void print_findings(const std::vector<const ScanEntry*>& scans, const ScanIndexR
     for (const auto& group : groups_of(scans, result, all)) {
         constexpr std::size_t most = 3;
         const std::size_t shown = all || group.scans.size() == most + 1 ? group.scans.size() : most;
-        std::cout << fmt::format("\n{} ({}): {} scan{}\n", to_string(group.first->severity), group.first->kind,
-                                 group.scans.size(), group.scans.size() == 1 ? "" : "s");
+        std::cout << fmt::format("\n{} ({}): {}\n", to_string(group.first->severity), group.first->kind,
+                                 base::counted(group.scans.size(), "scan"));
         for (std::size_t k = 0; k < group.scans.size() && k < shown; ++k)
             std::cout << fmt::format("    {}: {}\n        at {}\n", one_line(group.scans[k].name),
                                      one_line(group.scans[k].what), one_line(group.scans[k].where));
@@ -250,7 +251,7 @@ void print_json(const ScanDatabase& database, const std::vector<const ScanEntry*
                                      {"undecided", database.code_sides.undecided},
                                      {"names_are_the_viewers", database.code_sides.swapped}}},
                                    {"remarks", database.remarks},
-                                   {"catalogue",
+                                   {"index",
                                     {{"file", result.file.string()},
                                      {"scans_read", result.scans_read},
                                      {"scans_remembered", result.scans_remembered},
@@ -283,12 +284,15 @@ int action_unit_number(const std::string& text) {
 int run(Request& request) {
     for (const auto& text : request.action_units) request.selection.action_units.push_back(action_unit_number(text));
     if (!request.side.empty()) request.selection.side = facs::parse_side(request.side);
-    request.index.use_cache = !request.no_catalogue;
+    if (request.no_catalogue && !request.common.quiet)
+        say_note("--no-catalogue is called --no-index now; the old name will go with a later version");
+    request.index.use_cache = !request.no_index && !request.no_catalogue;
     check_by_option(
         {{"max_hole_mm", "--max-hole-mm"}, {"spike_mm", "--spike-mm"}, {"landmark_off_scan_mm", "--landmark-off-mm"}},
         [&] { request.index.doctor.check(); });
     refuse_workspace(request.root);
     const auto database = open_database(request.root, io::parse_length_unit(request.unit));
+    if (request.index.use_cache) remember_database(database.root);
     const auto scans = select(database, request.selection);
     ScanIndexResult result;
     {
@@ -305,7 +309,8 @@ int run(Request& request) {
         std::set<std::string> subjects;
         for (const auto* entry : scans) subjects.insert(entry->id.subject);
         std::cout << fmt::format(
-            "{}: {} scans of {} subjects{}\n", database.root.string(), scans.size(), subjects.size(),
+            "{}: {} of {}{}\n", database.root.string(), base::counted(scans.size(), "scan"),
+            base::counted(subjects.size(), "subject"),
             scans.size() == database.scans.size() ? "" : fmt::format(" selected from {}", database.scans.size()));
         const bool selected = scans.size() < database.scans.size();
         if (!scans.empty()) (request.list || selected ? print_scans : print_subjects)(database, scans, result);
@@ -314,7 +319,8 @@ int run(Request& request) {
             if (!result.remark.empty()) std::cerr << "scan index: " << one_line(result.remark) << '\n';
             for (const auto& remark : grouped(database.remarks)) std::cerr << one_line(remark) << '\n';
         }
-        if (request.index.check) std::cout << fmt::format("\n{} of {} scans have errors\n", bad, scans.size());
+        if (request.index.check)
+            std::cout << fmt::format("\n{} of {} errors\n", bad, base::counted(scans.size(), "scan has", "scans have"));
     }
     const bool unreadable = std::any_of(result.summaries.begin(), result.summaries.end(),
                                         [](const ScanSummary& s) { return !s.error.empty(); });
@@ -337,7 +343,8 @@ void add_scans_command(CLI::App& app, int& exit_code) {
     command->add_option("--au", request->action_units, "Only these action units, such as 1,12")->delimiter(',');
     command->add_option("--side", request->side, "Only left, right (the subject's own) or both-sided scans");
     command->add_flag("--list", request->list, "One line per scan, and every note (as when scans are selected)");
-    command->add_flag("--no-catalogue", request->no_catalogue, "Read every scan; leave the user's cache alone");
+    command->add_flag("--no-index", request->no_index, "Read every scan; leave the user's cache alone");
+    command->add_flag("--no-catalogue", request->no_catalogue)->group("");  // not in --help
     auto& doctor = request->index.doctor;
     command->add_option("--max-hole-mm", doctor.max_hole_mm, "A hole that takes more of the skin gets a warning")
         ->capture_default_str();

@@ -75,7 +75,7 @@ step 5 "Score thesis, default and mean beside doing nothing, on every ordered pa
 "$mimik" evaluate "$out/workspace" -o "$out/scores"
 
 step 6 "Check the scans that were made, as 'mimik scans --check' does"
-"$mimik" scans "$out/database" --check --no-catalogue --quiet | tail -n 3 || true
+"$mimik" scans "$out/database" --check --no-index --quiet | tail -n 3 || true
 
 printf '\nDone in %d s. Table: %s  Figures: %s  Faces: %s  Database: %s  Program: %s\n' $((SECONDS - begin)) \
   "$out/scores/scores.md" "$out/figures/" "$out/animated/" "$out/database/" "$mimik"

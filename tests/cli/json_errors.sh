@@ -19,8 +19,8 @@ while read -r command; do
   ! grep -q '"error": "' out.txt || fail "an error: $command"
 done <<'END'
 synthesize x --subjects 1 --expressions 12 --dry-run
-scans db1 --no-catalogue
-scans db1 --check --no-catalogue
+scans db1 --no-index
+scans db1 --check --no-index
 preprocess db1 -o x --dry-run
 animate work1 --source bs000 --target bs001 --au 12 -o face.ply
 model work1 --source bs000 --au 12 -o models

@@ -16,7 +16,7 @@ done
 claim "no message gets into a file when standard streams are closed"
 
 code=0
-{ "$mimik" scans db1 --json --no-catalogue 2>err.txt; echo $? >code.txt; } | true || code=$?
+{ "$mimik" scans db1 --json --no-index 2>err.txt; echo $? >code.txt; } | true || code=$?
 [ "$(cat code.txt)" -le 2 ] && [ ! -s err.txt ] || { cat code.txt err.txt; fail "a reader that goes"; }
 { "$mimik" preprocess db1 -o piped 2>&1 >/dev/null; echo $? >code.txt; } | true
 [ "$(cat code.txt)" -eq 0 ] || fail "a run ends with the reader of its progress"
@@ -47,11 +47,11 @@ plain "$mimik" distance $'two\nmimik: lines.ply' face.obj
 [ "$(wc -l <err.txt)" -eq 1 ] || fail "a name breaks the line"
 mkdir "db$evil"
 cp -r "$shared/db1/bs000" "db$evil/$evil"
-plain "$mimik" scans "db$evil" --no-catalogue
-plain "$mimik" scans "db$evil" --no-catalogue --json
+plain "$mimik" scans "db$evil" --no-index
+plain "$mimik" scans "db$evil" --no-index --json
 printf 'file,subject,expression\n%s,%s,N\n' face.obj $'e\x1b[2J' >"db$evil/manifest.csv"
 cp face.obj "db$evil/"
-plain "$mimik" scans "db$evil" --check --no-catalogue
+plain "$mimik" scans "db$evil" --check --no-index
 "$mimik" catalogue --text | sed 's/name = "Lip Corner Puller"/name = "Lip \\u001b[2J \\n Puller"/' >own.toml
 plain "$mimik" catalogue own.toml
 grep -q 'Lip .x1b' out.txt || fail "the name is gone"
