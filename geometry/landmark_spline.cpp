@@ -48,14 +48,6 @@ ThinPlateSpline LandmarkPairs::fit(const ThinPlateSplineOptions& options) const 
     return ThinPlateSpline::fit(from_mm_, to_mm_, options, names_);
 }
 
-std::string LandmarkPairs::unpaired() const {
-    std::string text;
-    if (!only_in_from_.empty()) text = fmt::format("only the first has '{}'", fmt::join(only_in_from_, "', '"));
-    if (!only_in_to_.empty())
-        text += fmt::format("{}only the second has '{}'", text.empty() ? "" : "; ", fmt::join(only_in_to_, "', '"));
-    return text;
-}
-
 void LandmarkPairs::require_partners() const {
     const auto lacking = [](std::span<const std::string> names, const char* where, const char* other) {
         return names.empty() ? std::string()

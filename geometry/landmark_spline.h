@@ -11,15 +11,16 @@ namespace mimik::geometry {
 
 /// Point pairs for a spline between two faces, and what did not become one. Marks on a scan can fall together (closed
 /// lips: inner upper and inner lower one on the same vertex); a spline through both has no answer, so the first speaks
-/// for both and `merged` says so. A landmark that only one face has says nothing; `unpaired` names it.
+/// for both and `merged` says so. A landmark that only one face has says nothing; `only_in_from` and `only_in_to` name
+/// it.
 class LandmarkPairs {
 public:
     LandmarkPairs() = default;
     /// All landmarks that both have, in the order of `from`.
     LandmarkPairs(const Landmarks& from, const Landmarks& to);
 
-    /// False: left out, since it lies within `coincident_mm` of an earlier one (or the share `coincident_ratio`
-    /// of a smaller cloud's size).
+    /// False: left out, since it lies within `coincident_mm` of an earlier one (of a smaller cloud: within the share
+    /// `coincident_ratio` of its size).
     bool add(const std::string& name, const Point& from_mm, const Point& to_mm);
     /// @throws what ThinPlateSpline::fit throws.
     [[nodiscard]] ThinPlateSpline fit(const ThinPlateSplineOptions& options = {}) const;
@@ -30,8 +31,6 @@ public:
     [[nodiscard]] std::span<const std::string> merged() const { return merged_; }  ///< "'x' lies on 'y'"
     [[nodiscard]] std::span<const std::string> only_in_from() const { return only_in_from_; }
     [[nodiscard]] std::span<const std::string> only_in_to() const { return only_in_to_; }
-    /// "only the first has 'x'; only the second has 'y'"; empty: all have partners.
-    [[nodiscard]] std::string unpaired() const;
     [[nodiscard]] std::size_t size() const { return names_.size(); }
 
     /// Far below the spacing of any scanner, and below what anybody marks.

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "evaluation/reference_band.h"
+#include "base/text.h"
 #include "io/json_values.h"
 
 namespace mimik::report {
@@ -38,11 +38,6 @@ std::string worse_text(const Pooled& total) {
     if (total.cases == 0) return {};
     return fmt::format("{:.1f} % of {}", 100.0 * static_cast<double>(total.worse) / static_cast<double>(total.cases),
                        total.cases);
-}
-
-/// Whether every band that is known is met.
-bool fit_to_be_scored_on(const std::vector<evaluation::ReferenceBand>& bands) {
-    return std::all_of(bands.begin(), bands.end(), [](const auto& band) { return band.inside(); });
 }
 
 std::string text_of(const std::optional<double>& value, int digits) {
@@ -149,8 +144,8 @@ std::string to_markdown(const evaluation::ExperimentReport& report) {
         report.subjects.size(), report.zones, report.alignment);
     text += explained_table(report) + "\n" + error_table(report);
     if (report.failures.empty()) return text;
-    text += fmt::format("\n{} failure(s); a case without an answer is scored as doing nothing:\n\n",
-                        report.failures.size());
+    text += fmt::format("\n{}; a case without an answer is scored as doing nothing:\n\n",
+                        base::counted(report.failures.size(), "failure"));
     for (const auto& failure : report.failures) text += "- " + failure + "\n";
     return text;
 }
@@ -178,33 +173,23 @@ std::string to_json(const evaluation::ExperimentReport& report) {
     for (const auto& row : report.rows) rows.push_back(json_of(row));
     std::vector<std::string> expressions;
     for (const auto& expression : report.expressions) expressions.push_back(expression.code());
-    const auto known_bands = evaluation::reference_bands(report);
-    auto bands = nlohmann::json::array();
-    for (const auto& band : known_bands)
-        bands.push_back({{"kind", kind_name(band.kind)},
-                         {"explained", band.explained},
-                         {"low", band.low},
-                         {"high", band.high},
-                         {"inside", band.inside()}});
-    return io::json_text(nlohmann::json{
-        {"schema", 1},
-        {"subjects", report.subjects},
-        {"expressions", expressions},
-        {"zones", report.zones},
-        {"alignment", report.alignment},
-        {"truth", report.truth ? nlohmann::json{{"seed", report.truth->seed},
-                                                {"face_model", report.truth->face_model},
-                                                {"subjects", report.truth->subjects},
-                                                {"expressions", report.truth->expressions},
-                                                {"neutrals", report.truth->neutrals},
-                                                {"repeat", report.truth->repeat},
-                                                {"variances", report.truth->variances},
-                                                {"scanner", report.truth->scanner}}
-                               : nlohmann::json()},
-        {"reference_bands", bands},
-        {"fit", known_bands.empty() ? nlohmann::json() : nlohmann::json(fit_to_be_scored_on(known_bands))},
-        {"rows", rows},
-        {"failures", report.failures}});
+    return io::json_text(
+        nlohmann::json{{"schema", 1},
+                       {"subjects", report.subjects},
+                       {"expressions", expressions},
+                       {"zones", report.zones},
+                       {"alignment", report.alignment},
+                       {"truth", report.truth ? nlohmann::json{{"seed", report.truth->seed},
+                                                               {"face_model", report.truth->face_model},
+                                                               {"subjects", report.truth->subjects},
+                                                               {"expressions", report.truth->expressions},
+                                                               {"neutrals", report.truth->neutrals},
+                                                               {"repeat", report.truth->repeat},
+                                                               {"variances", report.truth->variances},
+                                                               {"scanner", report.truth->scanner}}
+                                              : nlohmann::json()},
+                       {"rows", rows},
+                       {"failures", report.failures}});
 }
 
 }  // namespace mimik::report
