@@ -61,3 +61,10 @@ the header line is missing" "$mimik" warp --from "$data/csv-no-header/from.csv" 
 expect_code 0 "paired by their order" "$mimik" warp --pair-by order --from "$data/from.csv" --to "$data/to.csv" \
   "$data/ref.ply" -o out.ply
 claim "what is wrong is named with its file"
+
+for database in backslashes empty-last-row; do
+  "$mimik" scans "$data/manifest-windows/$database" --json --no-index >scans.json
+  [ "$(grep -c '"error": null' scans.json)" -eq 4 ] && [ "$(grep -c '"sex"' scans.json)" -eq 2 ] || { cat scans.json; fail "$database"; }
+  expect_code 0 "4 faces preprocessed, 0 already up to date, 0 failed" "$mimik" preprocess "$data/manifest-windows/$database" -o "work-$database"
+done
+claim "a manifest may have backslashes, and a last row of commas"

@@ -58,6 +58,16 @@ for extension in ply obj vtp glb; do animate f.$extension; done
 cmp f_texture.png db/bs001/N_N.png
 grep -a '^vt ' f.obj | awk '$3 < -1e-3 || $3 > 1.001 { exit 1 }' || fail "v outside the image"
 claim "texture positions in another copy of the image are moved into it"
+cp -r "$foreign/texture-format-blocks" blocks
+"$mimik" preprocess blocks -o blocks_work --quiet >/dev/null
+for extension in obj vtp glb ply; do
+  expect_code 0 "b.$extension" "$mimik" animate blocks_work --source bs000 --target bs001 --au 12 -o b.$extension
+  ! grep -q 'no picture' err.txt || fail "a BMP is not read"
+done
+is_png b_texture.png
+[ "$(od -An -tx1 -j16 -N8 b_texture.png | tr -d ' \n')" = 0000003000000040 ] || fail "the picture has another size"
+grep -qa '"mimeType":"image/png"' b.glb || fail "the GLB has no picture"
+claim "the pictures of a database that has them as BMP go along"
 grep -qa '^comment made_by: Mimik ' f.ply && grep -qa '^comment expressions: AU12 x 1$' f.ply || fail "PLY does not say what made it"
 grep -qa '^comment target: bs001_N_N_0$' f.ply && grep -qa '"target":"bs001_N_N_0"' f.glb && grep -q 'Name="made_by"' f.vtp || fail "no target"
 claim "an animated face says what made it"
