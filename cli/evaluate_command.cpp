@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/expression_names.h"
 #include "cli/method_options.h"
@@ -43,8 +44,8 @@ int say_plan(const Arguments& arguments, const evaluation::ExperimentPlan& plan)
                                                   {"seconds", seconds},
                                                   {"megabytes", megabytes}});
     else
-        std::cout << fmt::format("{} transfers, about {:.0f} s and {:.0f} MB of tables\n", estimate.transfers, seconds,
-                                 megabytes);
+        std::cout << fmt::format("{}, about {:.0f} s and {:.0f} MB of tables\n",
+                                 base::counted(estimate.transfers, "transfer"), seconds, megabytes);
     return exit_done;
 }
 
@@ -99,14 +100,6 @@ int run(Arguments& arguments) {
     if (!arguments.common.json && !arguments.common.quiet)
         std::cerr << fmt::format("{:.1f} s; every case is in {}\n", report.seconds, (folder / "cases.csv").string());
     return report.failures.empty() ? exit_done : exit_done_with_failures;
-}
-
-/// The methods that a user may ask for.
-std::vector<std::string> method_names() {
-    std::vector<std::string> names;
-    for (const auto& method : animation::known_methods())
-        if (method->name() != evaluation::baseline_method) names.push_back(method->name());
-    return names;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "animation/sparse_method.h"
 #include "base/errors.h"
 #include "cli/command.h"
+#include "evaluation/score.h"
 #include "modeling/average_fingerprint.h"
 
 namespace mimik::cli {
@@ -41,9 +42,24 @@ const animation::SparseMethod& sparse_method(const std::string& name) {
 
 }  // namespace
 
-void MethodArguments::add_to(CLI::App& command) {
-    command.add_option("--method", name, "thesis (as printed) or default (what measured best)")
-        ->check(CLI::IsMember(sparse_method_names()))
+std::vector<std::string> method_names() {
+    std::vector<std::string> names;
+    for (const auto& method : animation::known_methods())
+        if (method->name() != evaluation::baseline_method) names.push_back(method->name());
+    return names;
+}
+
+bool MethodArguments::has_control_points() const {
+    const auto method = animation::method_by_name(name);
+    if (dynamic_cast<const animation::SparseMethod*>(method.get())) return true;
+    if (!kernel.empty() || no_anchors)
+        throw InputError(fmt::format("--method {} has no control points; leave --kernel and --no-anchors out", name));
+    return false;
+}
+
+void MethodArguments::add_to(CLI::App& command, Methods methods) {
+    command.add_option("--method", name, "thesis (as printed), default (what measured best), or another")
+        ->check(CLI::IsMember(methods == Methods::all ? method_names() : sparse_method_names()))
         ->capture_default_str();
     command.add_option("--catalogue", catalogue_file, "Another FACS catalogue (TOML) than the built-in one");
     command

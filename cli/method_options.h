@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +11,9 @@
 #include "modeling/expression_model.h"
 
 namespace mimik::cli {
+
+/// The methods that a user may ask for.
+[[nodiscard]] std::vector<std::string> method_names();
 
 /// Of --kernel, which the parser has found to be r or r2logr.
 [[nodiscard]] geometry::SplineKernel kernel_by_name(const std::string& name);
@@ -21,7 +25,10 @@ struct MethodArguments {
     std::string kernel;          ///< empty: as the method has it
     bool no_anchors = false;
 
-    void add_to(CLI::App& command);
+    enum class Methods { by_control_points, all };
+    void add_to(CLI::App& command, Methods methods = Methods::by_control_points);
+    /// Whether it has model_options() and animation_options(). @throws InputError if it has none and a switch is given.
+    [[nodiscard]] bool has_control_points() const;
     [[nodiscard]] facs::FacsCatalogue catalogue() const;
     [[nodiscard]] modeling::ModelOptions model_options() const;
     [[nodiscard]] animation::AnimationOptions animation_options() const;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/expression_names.h"
 #include "cli/figure_start.h"
@@ -61,8 +62,10 @@ std::vector<Planned> plan(const Arguments& arguments, const preprocessing::Works
         auto request = arguments.request;
         request.expression = expression_named(workspace, catalogue, typed.text);
         request.method_name = arguments.method.name;
-        request.model = arguments.method.model_options();
-        request.animation = arguments.method.animation_options();
+        if (arguments.method.has_control_points()) {
+            request.model = arguments.method.model_options();
+            request.animation = arguments.method.animation_options();
+        }
         request.magnitude = typed.magnitude;
         (void)report::compared_scans(workspace, catalogue, request);  // found out before any work
         expressions.push_back(request.expression);
@@ -121,14 +124,15 @@ int say_plan(const Arguments& arguments, const std::vector<Planned>& planned) {
                                                   {"megabytes", megabytes},
                                                   {"failures", nlohmann::json::array()}});
     else
-        std::cout << fmt::format("{} pictures of {:.0f} panels: about {:.0f} s, {:.0f} MB in {}\n", planned.size(),
-                                 panels, std::max(1.0, seconds), std::max(1.0, megabytes), arguments.output);
+        std::cout << fmt::format("{} of {:.0f} panels: about {:.0f} s, {:.0f} MB in {}\n",
+                                 base::counted(planned.size(), "picture"), panels, std::max(1.0, seconds),
+                                 std::max(1.0, megabytes), arguments.output);
     return exit_done;
 }
 
 /// What was made, and how near the faces come.
 void tell(const std::filesystem::path& picture, const ComparisonFigure& figure) {
-    std::cout << fmt::format("{}: {} panels", picture.string(), figure.panels);
+    std::cout << fmt::format("{}: {}", picture.string(), base::counted(figure.panels, "panel"));
     for (const auto& person : figure.people)
         std::cout << fmt::format("; {} {:.2f} mm from its own scan of it, doing nothing {:.2f} mm", person.subject,
                                  person.zone_mm, person.zone_nothing_mm);
@@ -208,7 +212,7 @@ void add_panels_command(CLI::App& app, int& exit_code) {
     add_output_folder(*command, arguments->output, "Folder for the pictures and the files they are drawn from")
         ->required();
     command->add_flag("--dry-run", arguments->dry_run, "List the pictures, say time and disk, make nothing");
-    arguments->method.add_to(*command);
+    arguments->method.add_to(*command, MethodArguments::Methods::all);
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -17,7 +16,9 @@
 #include "base/text.h"
 #include "evaluation/active_zone.h"
 #include "evaluation/estimator.h"
+#include "evaluation/performance.h"
 #include "evaluation/surface_distance.h"
+#include "geometry/box.h"
 #include "geometry/landmark_spline.h"
 #include "geometry/statistics.h"
 #include "io/landmark_io.h"
@@ -68,6 +69,53 @@ AnimatedFace animated_face(const PreparedTarget& target, const ExpressionModel& 
     return animation::animate(target, std::span(&weighted, 1), request.animation);
 }
 
+/// A method that is no model of control points. Null: the request's own options make the motion.
+animation::MethodPointer field_method(const ComparisonRequest& request) {
+    auto method = animation::method_by_name(request.method_name);
+    return dynamic_cast<const animation::SparseMethod*>(method.get()) ? nullptr : method;
+}
+
+/// @throws InputError if the method does not learn from such a source.
+void check_method(const ComparisonRequest& request) {
+    const auto needs = animation::method_by_name(request.method_name)->needs();
+    if (needs == animation::SourceKind::all_but_target && request.source != "mean")
+        throw InputError(fmt::format("method '{}' learns from everybody but the target, source is '{}'; give mean",
+                                     request.method_name, request.source));
+    if (field_method(request) && needs == animation::SourceKind::one_source && request.source == "mean")
+        throw InputError(fmt::format("method '{}' learns from one source; name a subject", request.method_name));
+}
+
+/// What such a method makes of the source's expression.
+class LearnedMotion {
+public:
+    LearnedMotion(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
+                  const animation::Method& method)
+        : reader_(workspace), magnitude_(request.magnitude) {
+        const auto learner = method.learner({request.expression, workspace.average(), catalogue});
+        std::vector<animation::LessonPointer> lessons;
+        if (method.needs() != animation::SourceKind::none)
+            for (const auto& scan :
+                 modeling::source_scans(workspace, request.expression, {request.source, {request.target}}))
+                lessons.push_back(learner->study(reader_.read(scan)));
+        transfer_ = learner->learn(lessons);
+    }
+    [[nodiscard]] AnimatedFace on(const Person& person) const {
+        std::optional<modeling::Performance> own;  // with its truth
+        if (person.real) own = reader_.read(person.real->id);
+        const PreparedTarget target(person.neutral, own && own->true_neutral ? &*own->true_neutral : nullptr);
+        AnimatedFace animated;
+        animated.field = animation::field_on(*transfer_, target);
+        for (auto& displacement : animated.field.mm) displacement *= magnitude_;
+        animated.extent = geometry::field_extent(target.surface(), animated.field.mm);
+        return animated;
+    }
+
+private:
+    evaluation::PerformanceReader reader_;
+    double magnitude_;
+    std::unique_ptr<const animation::Transfer> transfer_;
+};
+
 std::vector<Point> moved_vertices(const geometry::QuadGrid& grid, const AnimatedFace& animated) {
     auto moved = grid.vertices_mm;
     for (std::size_t v = 0; v < moved.size(); ++v) moved[v] += animated.field.mm[v];
@@ -88,12 +136,7 @@ Face average_person(const Workspace& workspace) {
 
 /// Middle of what is drawn of a neutral face: where all panels of that person look.
 Point centre_of(const geometry::QuadGrid& grid, geometry::BridgedVertices bridged) {
-    Point low = Point::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    for (const auto& p : geometry::to_mesh(grid, bridged).vertices_mm) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
-    return 0.5 * (low + high);
+    return geometry::box_of(geometry::to_mesh(grid, bridged).vertices_mm).center();
 }
 
 /// `name,x,y,z,kind` of muscle and wrinkle points; coverage points in a file of their own, since they stand for no
@@ -365,6 +408,7 @@ std::string series_name(const ComparisonRequest& request, std::span<const facs::
 ComparedScans compared_scans(const Workspace& workspace, const FacsCatalogue& catalogue,
                              const ComparisonRequest& request) {
     workspace.refuse_hidden(request.target);
+    check_method(request);
     modeling::check_source(workspace, source_of(request), request.model);
     (void)workspace.neutral(request.target);
     (void)catalogue.units(request.expression);
@@ -377,12 +421,18 @@ ComparedScans compared_scans(const Workspace& workspace, const FacsCatalogue& ca
 
 namespace {
 
+Person person_with_scan(const char* role, const Workspace& workspace, const std::string& subject,
+                        const database::ScanId& scan) {
+    Person person(role);
+    person.neutral = workspace.face(workspace.neutral(subject));
+    person.real = workspace.face(scan);
+    return person;
+}
+
 /// The source with its own scan, and what the model says of it.
 Person source_person(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
                      const database::ScanId& scan, ExpressionModel& model, std::vector<std::string>& remarks) {
-    Person source("source");
-    source.neutral = workspace.face(workspace.neutral(request.source));
-    source.real = workspace.face(scan);
+    auto source = person_with_scan("source", workspace, request.source, scan);
     std::vector<modeling::FollowedPoint> followed;
     model = modeling::measure_expression(catalogue, request.expression, workspace.average(), source.neutral,
                                          *source.real, request.model, &followed);
@@ -429,13 +479,21 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
 
     std::vector<Person> people;
     ExpressionModel model;
-    people.push_back(scans.source ? source_person(workspace, catalogue, request, *scans.source, model, figure.remarks)
-                                  : average_in_place_of_source(workspace, catalogue, request, model, figure));
+    std::optional<LearnedMotion> motion;
+    if (const auto method = field_method(request)) {
+        motion.emplace(workspace, catalogue, request, *method);
+        if (scans.source) people.push_back(person_with_scan("source", workspace, request.source, *scans.source));
+    } else if (scans.source) {
+        people.push_back(source_person(workspace, catalogue, request, *scans.source, model, figure.remarks));
+    } else {
+        people.push_back(average_in_place_of_source(workspace, catalogue, request, model, figure));
+    }
     if (request.target != request.source)
         people.push_back(target_person(workspace, request, scans.target, figure.remarks));
 
     for (auto& person : people) {
-        person.animated = animated_face(PreparedTarget(person.neutral), model, request, request.magnitude);
+        person.animated = motion ? motion->on(person)
+                                 : animated_face(PreparedTarget(person.neutral), model, request, request.magnitude);
         if (person.role == "target")
             for (const auto& point : person.animated.points)
                 person.controls.push_back({point.name, point.kind, point.position_mm});
@@ -471,9 +529,13 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
 
 void check_series(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
                   std::span<const facs::Expression> expressions, std::span<const double> magnitudes) {
+    if (field_method(request))
+        throw InputError(fmt::format("method '{}' has no control points; a series takes thesis, default or the like",
+                                     request.method_name));
     if (expressions.empty() || magnitudes.empty())
-        throw InputError(fmt::format("a series of {} expressions at {} magnitudes; give one or more of each",
-                                     expressions.size(), magnitudes.size()));
+        throw InputError(fmt::format("a series of {} at {}; give one or more of each",
+                                     base::counted(expressions.size(), "expression"),
+                                     base::counted(magnitudes.size(), "magnitude")));
     auto each = request;
     std::set<std::string> meshes;
     for (const auto& expression : expressions) {

@@ -18,8 +18,8 @@ struct ComparisonRequest {
     std::string source = "mean";  ///< subject, or "mean" (of all others)
     std::string target;
     facs::Expression expression;
-    std::string method_name = "default";  ///< for names of files and for titles
-    modeling::ModelOptions model;
+    std::string method_name = "default";  ///< any of animation::known_methods()
+    modeling::ModelOptions model;         ///< of a method by control points, with its `animation`; of others not used
     animation::AnimationOptions animation;
     double magnitude = 1.0;
     std::string view = "front";
@@ -67,7 +67,8 @@ struct ComparedScans {
 /// animated face and of doing nothing. All files of a person are in the scanner frame of that person's neutral scan,
 /// mm, and all panels of a person are centred on one point. The colours go from 0 to the 99th percentile of doing
 /// nothing (of both people, the greater). Grey: not measured by one of the two scans. A mean has the average face
-/// instead of a source, neutral and moved. Writes meshes, landmarks, controls and figure.json into `folder`; files
+/// instead of a source, neutral and moved. A method that is no model of control points has none in the figure, and no
+/// row for a mean. Writes meshes, landmarks, controls and figure.json into `folder`; files
 /// that an earlier figure.json there names go first.
 /// @throws as compared_scans; NumericalError from the splines.
 [[nodiscard]] ComparisonFigure write_comparison_panels(const preprocessing::Workspace& workspace,
