@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "adapters/remarks.h"
+#include "base/text.h"
 #include "geometry/range_scan.h"
 #include "io/image.h"
 
@@ -31,8 +32,9 @@ namespace mimik::adapters {
             image.at<cv::Vec3d>(scan.rows - 1 - row, col) = cv::Vec3d(p.x(), p.y(), p.z());
         }
     if (!scan.texture_coordinates.empty())
-        remarks.push_back(std::to_string(scan.texture_coordinates.size()) +
-                          " texture coordinates are left out: a range image holds none");
+        remarks.push_back(
+            base::counted(scan.texture_coordinates.size(), "texture coordinate is", "texture coordinates are") +
+            " left out: a range image holds none");
     return image;
 }
 
@@ -60,7 +62,9 @@ namespace mimik::adapters {
             point.setConstant(std::numeric_limits<double>::quiet_NaN());
         }
     if (torn > 0)
-        remarks.push_back(std::to_string(torn) + " points with some finite coordinates count as not measured");
+        remarks.push_back(base::counted(torn, "point with some finite coordinates counts",
+                                        "points with some finite coordinates count") +
+                          " as not measured");
     return scan;
 }
 
@@ -96,7 +100,7 @@ namespace mimik::adapters {
             if (channels == 4 && pixel[3] != 255) ++transparent;
         }
     }
-    if (transparent > 0) remarks.push_back("transparency of " + std::to_string(transparent) + " pixels is left out");
+    if (transparent > 0) remarks.push_back("transparency of " + base::counted(transparent, "pixel") + " is left out");
     return result;
 }
 

@@ -12,6 +12,7 @@
 #include <pcl/point_types.h>
 
 #include "adapters/remarks.h"
+#include "base/text.h"
 #include "geometry/range_scan.h"
 
 namespace mimik::adapters {
@@ -40,10 +41,12 @@ template <class PclPoint>
         }
     remark_rounding(scan.points_mm, remarks);
     if (scan.faces.size() > 0)
-        remarks.push_back(std::to_string(scan.faces.size()) + " faces are left out: pcl::PointCloud holds none");
+        remarks.push_back(base::counted(scan.faces.size(), "face is", "faces are") +
+                          " left out: pcl::PointCloud holds none");
     if (!scan.texture_coordinates.empty())
-        remarks.push_back(std::to_string(scan.texture_coordinates.size()) +
-                          " texture coordinates are left out: pcl::PointCloud holds none");
+        remarks.push_back(
+            base::counted(scan.texture_coordinates.size(), "texture coordinate is", "texture coordinates are") +
+            " left out: pcl::PointCloud holds none");
     return cloud;
 }
 
@@ -81,7 +84,9 @@ template <class PclPoint>
             }
             scan.points_mm.push_back(point);
         }
-    if (unmeasured > 0) remarks.push_back(std::to_string(unmeasured) + " points that are not finite are left out");
+    if (unmeasured > 0)
+        remarks.push_back(base::counted(unmeasured, "point that is not finite is", "points that are not finite are") +
+                          " left out");
     return scan;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "geometry/mesh.h"
 
 namespace mimik::adapters {
@@ -47,8 +48,9 @@ inline void check_index(std::uint64_t index, std::size_t vertices, std::size_t f
 /// What Mimik's mesh has and the other side's cannot hold.
 inline void remark_texture(const geometry::Mesh& mesh, const std::string& side, Remarks& remarks) {
     if (!mesh.texture_coordinates.empty())
-        remarks.push_back(std::to_string(mesh.texture_coordinates.size()) +
-                          " texture coordinates are left out: " + side + " holds none");
+        remarks.push_back(
+            base::counted(mesh.texture_coordinates.size(), "texture coordinate is", "texture coordinates are") +
+            " left out: " + side + " holds none");
 }
 
 inline void remark_attributes(const geometry::Mesh& mesh, const std::string& side, Remarks& remarks) {
@@ -57,7 +59,10 @@ inline void remark_attributes(const geometry::Mesh& mesh, const std::string& sid
 }
 
 inline void remark_small_faces(std::size_t dropped, Remarks& remarks) {
-    if (dropped > 0) remarks.push_back(std::to_string(dropped) + " faces of fewer than three corners are left out");
+    if (dropped > 0)
+        remarks.push_back(
+            base::counted(dropped, "face of fewer than three corners is", "faces of fewer than three corners are") +
+            " left out");
 }
 
 }  // namespace mimik::adapters

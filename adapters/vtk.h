@@ -18,6 +18,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "adapters/remarks.h"
+#include "base/text.h"
 #include "geometry/mesh.h"
 
 namespace mimik::adapters {
@@ -177,13 +178,12 @@ inline void add_arrays(vtkPolyData& surface, geometry::Mesh& mesh, Remarks& rema
     vtk_detail::add_polygons(surface, mesh, remarks);
     vtk_detail::add_strips(surface, mesh);
     vtk_detail::add_arrays(surface, mesh, remarks);
-    const auto left_out = [&](vtkIdType cells, const std::string& kind) {
-        if (cells > 0) remarks.push_back(std::to_string(cells) + " cells that are " + kind + " are left out");
+    const auto left_out = [&](vtkIdType cells, const char* one, const char* many) {
+        if (cells > 0) remarks.push_back(base::counted(cells, one, many) + " left out");
     };
-    left_out(surface.GetNumberOfVerts(), "points");
-    left_out(surface.GetNumberOfLines(), "lines");
-    if (const int arrays = surface.GetCellData()->GetNumberOfArrays(); arrays > 0)
-        remarks.push_back(std::to_string(arrays) + " arrays of cells are left out");
+    left_out(surface.GetNumberOfVerts(), "cell that is a point is", "cells that are points are");
+    left_out(surface.GetNumberOfLines(), "cell that is a line is", "cells that are lines are");
+    left_out(surface.GetCellData()->GetNumberOfArrays(), "array of cells is", "arrays of cells are");
     return mesh;
 }
 

@@ -8,6 +8,7 @@
 
 #include "animation/combine.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "facs/face_regions.h"
 #include "geometry/face_axes.h"
 #include "geometry/landmark_spline.h"
@@ -114,8 +115,9 @@ std::vector<double> vertex_weights(const geometry::FaceSurface& surface, const E
                                        options.border_mm);
     if (options.keep.empty()) return weights;
     if (options.keep.size() != weights.size())
-        throw InputError(fmt::format("keep has {} weights for {} vertices; give one per vertex of the target",
-                                     options.keep.size(), weights.size()));
+        throw InputError(fmt::format("keep has {} for {}; give one per vertex of the target",
+                                     base::counted(options.keep.size(), "weight"),
+                                     base::counted(weights.size(), "vertex", "vertices")));
     for (std::size_t v = 0; v < weights.size(); ++v) weights[v] *= options.keep[v];
     return weights;
 }

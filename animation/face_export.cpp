@@ -64,8 +64,8 @@ std::vector<std::string> write_glb_face(const std::filesystem::path& file, const
                                         const preprocessing::Face& neutral, std::span<const NamedMagnitude> names,
                                         const std::filesystem::path& texture_file, const ExportOptions& options) {
     if (names.size() != animated.shapes.size())
-        throw InputError(fmt::format("{}: {} names for {} expressions; give each morph target its name", file.string(),
-                                     names.size(), animated.shapes.size()));
+        throw InputError(fmt::format("{}: {} for {} expressions; give each morph target its name", file.string(),
+                                     base::counted(names.size(), "name"), animated.shapes.size()));
     std::vector<std::string> remarks;
     std::vector<Shape> shapes;
     if (animated.combination == Combination::parallel && names.size() > 1) {

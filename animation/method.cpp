@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 
 // Written by animation/CMakeLists.txt: a declaration for every file of animation/methods/, and methods::all().
 #include "animation/methods.inc"
@@ -28,10 +29,10 @@ geometry::DisplacementField field_on(const Transfer& transfer, const PreparedTar
     auto field = transfer.on(target);
     const auto vertices = target.surface().size();
     if (field.mm.size() != vertices || field.answered.size() != vertices)
-        throw InputError(
-            fmt::format("the method gave {} displacements and {} answers for {} vertices; it has to give one of each "
-                        "per vertex",
-                        field.mm.size(), field.answered.size(), vertices));
+        throw InputError(fmt::format("the method gave {} and {} for {}; it has to give one of each per vertex",
+                                     base::counted(field.mm.size(), "displacement"),
+                                     base::counted(field.answered.size(), "answer"),
+                                     base::counted(vertices, "vertex", "vertices")));
     for (std::size_t v = 0; v < vertices; ++v) {
         if (!field.answered[v])
             field.mm[v].setZero();

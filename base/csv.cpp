@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::base {
 namespace {
@@ -120,11 +121,10 @@ bool CsvReader::next() {
         if (std::all_of(header_.begin() + given, header_.end(), is_empty))
             fields_.resize(std::max(fields_.size(), header_.size()));
         if (fields_.size() != header_.size())
-            lines_.fail(
-                fmt::format("{} fields where the header names {} columns; mend the {} (put a name that holds one in "
-                            "double quotes{})",
-                            fields_.size(), header_.size(), name_of(separator_),
-                            separator_ == ',' ? "; a number has a decimal point, or stands in quotes" : ""));
+            lines_.fail(fmt::format(
+                "{} where the header names {}; mend the {} (put a name that holds one in double quotes{})",
+                base::counted(fields_.size(), "field"), base::counted(header_.size(), "column"), name_of(separator_),
+                separator_ == ',' ? "; a number has a decimal point, or stands in quotes" : ""));
         return true;
     }
     return false;

@@ -184,6 +184,11 @@ std::optional<std::string> from_utf16(std::string_view text) {
     return out;
 }
 
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
+    if (count == 1) return fmt::format("1 {}", one);
+    return many.empty() ? fmt::format("{} {}s", count, one) : fmt::format("{} {}", count, many);
+}
+
 std::string in_quotes(std::string_view word) {
     constexpr std::size_t longest = 40;
     std::string shown(word.substr(0, longest));

@@ -51,6 +51,9 @@ private:
 /// spreadsheets save it; nothing where it is not. Halves of surrogate pairs become U+FFFD.
 [[nodiscard]] std::optional<std::string> from_utf16(std::string_view text);
 
+/// A number with its noun: "1 face", "2 faces". @param many  where it is not `one` with an s: "vertices", "faces have"
+[[nodiscard]] std::string counted(std::uint64_t count, std::string_view one, std::string_view many = {});
+
 /// The word in single quotes for an error message: at most 40 characters, control characters as '?'.
 [[nodiscard]] std::string in_quotes(std::string_view word);
 

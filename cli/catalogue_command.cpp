@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "facs/facs_catalogue.h"
@@ -70,7 +71,8 @@ void list_references(const facs::FacsCatalogue& catalogue) {
 }
 
 void list_units(const facs::FacsCatalogue& catalogue, const std::string& name) {
-    std::cout << fmt::format("{}: {} action units; points of one side\n\n", name, catalogue.action_units().size());
+    std::cout << fmt::format("{}: {}; points of one side\n\n", name,
+                             base::counted(catalogue.action_units().size(), "action unit"));
     std::cout << fmt::format("{:>3}  {:<22} {:<6} {:<8} {:>6} {:>8}  {}\n", "AU", "name", "region", "sides", "muscle",
                              "wrinkle", "muscles");
     for (const auto& unit : catalogue.action_units()) {
@@ -101,8 +103,8 @@ int lint(const Request& request, const std::string& text, const std::string& nam
         for (const auto& finding : findings)
             std::cout << fmt::format("{}:{}: {}: {}\n", name, finding.line, finding.error ? "error" : "warning",
                                      finding.what);
-        std::cout << fmt::format("{}: {} errors, {} warnings\n", name, errors,
-                                 static_cast<std::ptrdiff_t>(findings.size()) - errors);
+        std::cout << fmt::format("{}: {}, {}\n", name, base::counted(errors, "error"),
+                                 base::counted(static_cast<std::ptrdiff_t>(findings.size()) - errors, "warning"));
     }
     return errors > 0 ? exit_bad_input : exit_done;
 }

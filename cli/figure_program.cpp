@@ -30,9 +30,9 @@ std::string value_for(const std::vector<std::string>& values, std::size_t p, std
     if (values.empty()) return {};
     if (values.size() != 1 && values.size() != count)
         throw InputError(
-            fmt::format("{} is given {} times for {} panels; give it once, or once for each panel ('-' for "
+            fmt::format("{} is given {} times for {}; give it once, or once for each panel ('-' for "
                         "none)",
-                        option, values.size(), count));
+                        option, values.size(), base::counted(count, "panel")));
     const auto& value = values.size() == 1 ? values[0] : values[p];
     return value == "-" ? std::string() : value;
 }
@@ -40,7 +40,8 @@ std::string value_for(const std::vector<std::string>& values, std::size_t p, std
 std::vector<PanelDescription> panels_of(const PerPanel& given) {
     const auto count = given.meshes.size();
     if (given.captions.size() > count)
-        throw InputError(fmt::format("--caption is given {} times for {} panels", given.captions.size(), count));
+        throw InputError(
+            fmt::format("--caption is given {} times for {}", given.captions.size(), base::counted(count, "panel")));
     std::vector<PanelDescription> panels(count);
     for (std::size_t p = 0; p < count; ++p) {
         auto& panel = panels[p];
@@ -107,8 +108,8 @@ void draw(const FigureArguments& arguments) {
                                                           {"panels", figure.panels.size()},
                                                           {"drawn_with", figures::drawing_route()}});
     else if (!arguments.common.quiet)
-        std::cout << fmt::format("{}: {} x {} pixels, {} panels\n", output, image.width, image.height,
-                                 figure.panels.size());
+        std::cout << fmt::format("{}: {} x {} pixels, {}\n", output, image.width, image.height,
+                                 base::counted(figure.panels.size(), "panel"));
 }
 
 int run_figure(int argc, char** argv) {

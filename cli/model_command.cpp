@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/expression_names.h"
 #include "cli/method_options.h"
@@ -69,7 +70,7 @@ int run(Arguments& arguments) {
     if (arguments.common.json)
         std::cout << io::json_text(nlohmann::json{{"schema", 1}, {"models", written}, {"failures", failures}});
     else
-        std::cout << fmt::format("{} models in {}\n", written.size(), folder.string());
+        std::cout << fmt::format("{} in {}\n", base::counted(written.size(), "model"), folder.string());
     say_failures(failures);
     return failures.empty() ? exit_done : exit_done_with_failures;
 }

@@ -18,6 +18,7 @@
 #include "cli/figure_start.h"
 #include "cli/notes.h"
 #include "cli/terminal.h"
+#include "database/known_databases.h"
 #include "database/scan_database.h"
 #include "facs/facs_catalogue.h"
 #include "io/json_values.h"
@@ -67,8 +68,8 @@ void print_remarks(const preprocessing::PreprocessReport& report, const std::vec
     say_notes(notes);
     // Most scans of a database: no reason to look at any of them.
     if (const auto count = report.closed_lips.size(); count > 0)
-        std::cerr << fmt::format("{} scan{} closed lips, both inner marks on one grid vertex: splines take the first\n",
-                                 count, count == 1 ? " has" : "s have");
+        std::cerr << fmt::format("{} closed lips, both inner marks on one grid vertex: splines take the first\n",
+                                 base::counted(count, "scan has", "scans have"));
 }
 
 nlohmann::json listed(const std::vector<preprocessing::ScanRemark>& remarks) {
@@ -104,8 +105,9 @@ int say_plan(const Arguments& arguments, const database::ScanDatabase& database,
                                                   {"seconds", seconds},
                                                   {"megabytes", megabytes}});
     else
-        std::cout << fmt::format("{} scans: {} up to date, {} remain: about {:.0f} s, {:.0f} MB in {}\n", scans.size(),
-                                 plan.up_to_date, plan.remaining, seconds, megabytes, arguments.output);
+        std::cout << fmt::format("{}: {} up to date, {} remain: about {:.0f} s, {:.0f} MB in {}\n",
+                                 base::counted(scans.size(), "scan"), plan.up_to_date, plan.remaining, seconds,
+                                 megabytes, arguments.output);
     return exit_done;
 }
 
@@ -145,6 +147,7 @@ int run(Arguments& arguments) {
     check_size("--cols", arguments.options.steps.gridding.cols);
     arguments.options.expressions = parsed_expressions(arguments.expressions);
     const auto database = database::open_database(arguments.database, io::parse_length_unit(arguments.unit));
+    if (!arguments.dry_run) database::remember_database(database.root);
     check_by_option({{"spike_mm", "--spike-mm"},
                      {"max_jump_mm", "--max-jump-mm"},
                      {"max_edge_mm", "--max-edge-mm"},
@@ -191,19 +194,22 @@ int run(Arguments& arguments) {
     } else {
         if (!arguments.common.quiet) print_remarks(report, database.remarks);
         if (report.from_earlier_runs > 0 && !arguments.common.quiet)
-            std::cerr << fmt::format("note: {} scan{} of earlier runs stay in the workspace and are kept up to date\n",
-                                     report.from_earlier_runs, report.from_earlier_runs == 1 ? "" : "s");
+            std::cerr << fmt::format(
+                "note: {} in the workspace and up to date\n",
+                base::counted(report.from_earlier_runs, "scan of earlier runs stays", "scans of earlier runs stay"));
         for (const auto& failure : report.failures)
             std::cerr << one_line(fmt::format("{}: {}", failure.scan, failure.reason)) << '\n';
         print_way_out(report);
         for (const auto& subject : report.left_out)
             std::cerr << one_line(subject) << ": no usable neutral face, so the subject was left out\n";
-        std::cout << fmt::format("{} faces preprocessed, {} already up to date, {} failed; workspace {}\n",
-                                 report.preprocessed, report.up_to_date, report.failures.size(), arguments.output);
+        std::cout << fmt::format("{} preprocessed, {} already up to date, {} failed; workspace {}\n",
+                                 base::counted(report.preprocessed, "face"), report.up_to_date, report.failures.size(),
+                                 arguments.output);
         say_failures(sheets.failures);
         if (arguments.sheets)
-            std::cout << fmt::format("{} quality sheets drawn, {} already up to date; {}\n", sheets.drawn,
-                                     sheets.up_to_date, (std::filesystem::path(arguments.output) / "sheets").string());
+            std::cout << fmt::format("{} drawn, {} already up to date; {}\n",
+                                     base::counted(sheets.drawn, "quality sheet"), sheets.up_to_date,
+                                     (std::filesystem::path(arguments.output) / "sheets").string());
     }
     return report.failures.empty() && report.left_out.empty() && sheets.failures.empty() ? exit_done
                                                                                          : exit_done_with_failures;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "io/json_values.h"
@@ -61,7 +62,8 @@ int run_synthesize(const SynthesizeArguments& arguments) {
                                                       {"seconds", seconds},
                                                       {"skipped_expressions", estimate.skipped_expressions}});
         else
-            std::cout << fmt::format("{} scans, about {:.0f} MB and {:.0f} s\n", estimate.scans, megabytes, seconds);
+            std::cout << fmt::format("{}, about {:.0f} MB and {:.0f} s\n", base::counted(estimate.scans, "scan"),
+                                     megabytes, seconds);
         return exit_done;
     }
     Progress progress(arguments.common, "synthesize", estimate.scans);
@@ -95,9 +97,10 @@ int run_synthesize(const SynthesizeArguments& arguments) {
     for (const auto& expression : report.skipped_expressions)
         if (!arguments.common.quiet) std::cerr << "left out: " << expression << '\n';
     if (!arguments.common.quiet)
-        std::cout << fmt::format("{}: {} scans of {} subjects ({}), {} points each on average, {:.0f} MB\n",
-                                 arguments.out, report.scans, report.subjects, model->name(),
-                                 report.valid_points / report.scans, static_cast<double>(report.bytes) / 1e6);
+        std::cout << fmt::format("{}: {} of {} ({}), {} points each on average, {:.0f} MB\n", arguments.out,
+                                 base::counted(report.scans, "scan"), base::counted(report.subjects, "subject"),
+                                 model->name(), report.valid_points / report.scans,
+                                 static_cast<double>(report.bytes) / 1e6);
     return exit_done;
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/output_folder.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
@@ -62,9 +63,10 @@ int run_warp(const WarpArguments& arguments) {
                                                   {"remarks", report.remarks}});
     } else if (!arguments.common.quiet) {
         say_notes(report.remarks);
-        std::cout << fmt::format("{}: {} points moved by up to {:.3f} through {} landmarks (met within {:.2g})\n",
-                                 arguments.output.string(), report.points, report.largest_displacement,
-                                 report.landmarks, report.largest_landmark_residual);
+        std::cout << fmt::format("{}: {} moved by up to {:.3f} through {} (met within {:.2g})\n",
+                                 arguments.output.string(), base::counted(report.points, "point"),
+                                 report.largest_displacement, base::counted(report.landmarks, "landmark"),
+                                 report.largest_landmark_residual);
     }
     return exit_done;
 }

@@ -40,10 +40,9 @@ T value_at(const std::uint8_t* bytes) {
 std::size_t read_header(std::span<const std::uint8_t> bytes, std::uintmax_t file_bytes, const std::string& name,
                         Bnt& bnt) {
     if (bytes.size() < fixed_header_bytes)
-        throw InputError(
-            fmt::format("{}: {} bytes are too few for a .bnt header of at least 18; the file is truncated or "
-                        "not a Bosphorus scan",
-                        name, file_bytes));
+        throw InputError(fmt::format(
+            "{}: {} too few for a .bnt header of at least 18; the file is truncated or not a Bosphorus scan", name,
+            base::counted(file_bytes, "byte is", "bytes are")));
     bnt.rows = value_at<std::uint16_t>(bytes.data());
     bnt.cols = value_at<std::uint16_t>(bytes.data() + 2);
     bnt.background = value_at<double>(bytes.data() + 4);
@@ -256,16 +255,15 @@ Bnt to_bnt(const geometry::RangeScan& scan, double background) {
     const auto cells =
         static_cast<std::size_t>(std::max(scan.rows, 0)) * static_cast<std::size_t>(std::max(scan.cols, 0));
     if (!scan.organised() || cells != scan.points_mm.size())
-        throw InputError(
-            fmt::format("a .bnt needs a scan in rows and columns: this one has {} points for {} rows x {} columns; "
-                        "write it as .ply",
-                        scan.points_mm.size(), scan.rows, scan.cols));
+        throw InputError(fmt::format(
+            "a .bnt needs a scan in rows and columns: this one has {} for {} rows x {} columns; write it as .ply",
+            base::counted(scan.points_mm.size(), "point"), scan.rows, scan.cols));
     if (scan.rows > 65535 || scan.cols > 65535)
         throw InputError(fmt::format("a .bnt holds at most 65535 rows and columns, this scan has {} x {}; thin it out",
                                      scan.rows, scan.cols));
     if (!scan.texture_coordinates.empty() && scan.texture_coordinates.size() != cells)
-        throw InputError(fmt::format("the scan has {} texture coordinates for {} points; give one for each, or none",
-                                     scan.texture_coordinates.size(), cells));
+        throw InputError(fmt::format("the scan has {} for {} points; give one for each, or none",
+                                     base::counted(scan.texture_coordinates.size(), "texture coordinate"), cells));
     Bnt bnt;
     bnt.rows = static_cast<std::uint16_t>(scan.rows);
     bnt.cols = static_cast<std::uint16_t>(scan.cols);

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "database/bnt.h"
 #include "database/doctor_report.h"
 #include "database/landmark_distance.h"
@@ -26,9 +27,6 @@ using geometry::Landmarks;
 using geometry::Point;
 using geometry::Vector;
 
-std::string counted(int count, std::string_view word) {
-    return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
-}
 std::string text_of(const Point& p) { return fmt::format("({:.0f}, {:.0f}, {:.0f})", p.x(), p.y(), p.z()); }
 
 void check_sides(const LoadedScan& loaded, const Landmarks* neutral, Report& report) {
@@ -153,7 +151,7 @@ void check_surface(const LoadedScan& loaded, const DoctorOptions& options, Repor
     std::size_t valid = 0;
     for (const auto& p : scan.points_mm) valid += p.allFinite() ? 1U : 0U;
     if (valid < static_cast<std::size_t>(options.min_points))
-        report.add(Severity::warning, "points", fmt::format("has only {} measured points", valid),
+        report.add(Severity::warning, "points", fmt::format("has only {}", base::counted(valid, "measured point")),
                    "scan again, or export the scan at full resolution");
 
     const auto holes = find_holes(scan);
@@ -165,11 +163,11 @@ void check_surface(const LoadedScan& loaded, const DoctorOptions& options, Repor
             Severity::warning, "holes",
             fmt::format("{}, one of them {:.1f} mm across on the skin at {} mm, away from eyes, brows, nostrils, "
                         "lips and chin",
-                        counted(holes.count, "hole"), skin.size_mm, text_of(skin.at_mm)),
+                        base::counted(holes.count, "hole"), skin.size_mm, text_of(skin.at_mm)),
             "preprocessing bridges it or keeps it as a mask; scan again if it lies where the expression moves");
     else if (holes.count > 0)
         report.add(Severity::note, "holes",
-                   fmt::format("{}, the largest {:.1f} mm across at {} mm", counted(holes.count, "hole"),
+                   fmt::format("{}, the largest {:.1f} mm across at {} mm", base::counted(holes.count, "hole"),
                                holes.largest_mm, text_of(holes.largest_at_mm)),
                    "preprocessing bridges holes and marks the bridges, or keeps them as a mask");
 
@@ -181,10 +179,9 @@ void check_surface(const LoadedScan& loaded, const DoctorOptions& options, Repor
             static_cast<double>(count) > options.max_spike_share * static_cast<double>(valid) ? Severity::warning
                                                                                               : Severity::note,
             "spikes",
-            fmt::format(
-                "{} point{} ({:.2f} %) more than {} mm off the neighbourhood, the first at ({:.0f}, {:.0f}, {:.0f}) mm",
-                count, count == 1 ? "" : "s", 100.0 * static_cast<double>(count) / static_cast<double>(valid),
-                options.spike_mm, first.x(), first.y(), first.z()),
+            fmt::format("{} ({:.2f} %) more than {} mm off the neighbourhood, the first at ({:.0f}, {:.0f}, {:.0f}) mm",
+                        base::counted(count, "point"), 100.0 * static_cast<double>(count) / static_cast<double>(valid),
+                        options.spike_mm, first.x(), first.y(), first.z()),
             "preprocessing removes spikes; look at hair, glasses and eyelashes");
     }
 }

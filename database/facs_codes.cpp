@@ -91,8 +91,9 @@ FacsCodes parse_facs_codes(std::string_view text, const std::string& name) {
         throw InputError(
             fmt::format("{}: no line is of the form 'bs000_LFAU_12_0 -> 6B+12C'; is it the right file?", name));
     if (not_understood > max_remarks)
-        result.remarks.push_back(
-            fmt::format("{}: {} more lines or codes are not understood", name, not_understood - max_remarks));
+        result.remarks.push_back(fmt::format(
+            "{}: {} not understood", name,
+            base::counted(not_understood - max_remarks, "more line or code is", "more lines or codes are")));
     return result;
 }
 

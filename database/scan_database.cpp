@@ -215,9 +215,10 @@ void decide_code_sides(ScanDatabase& database) {
     const bool unknown = sides.undecided > 0 && sides.own_side == 0;
     if (sides.other_side == 0 && !unknown) return;
     database.remarks.push_back(fmt::format(
-        "one-sided codes: {} scans move the subject's own side, {} the other, {} are undecided; 12L in file names is "
-        "taken as the subject's {}{}",
-        sides.own_side, sides.other_side, sides.undecided, sides.swapped ? "right" : "left",
+        "one-sided codes: {} the subject's own side, {} the other, {} are undecided; 12L in file names is taken as the "
+        "subject's {}{}",
+        base::counted(sides.own_side, "scan moves", "scans move"), sides.other_side, sides.undecided,
+        sides.swapped ? "right" : "left",
         most && !sides.swapped
             ? fmt::format(": to turn all names takes {} scans, two subjects or 12L and 12R of one", enough_votes)
             : ""));

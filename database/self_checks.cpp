@@ -133,8 +133,8 @@ std::string texture_charts(const geometry::RangeScan& scan) {
     std::string what;
     if (images > 1) what = fmt::format("{} images", images);
     if (scan.texture_seam_points > 0)
-        what += fmt::format("{}several charts ({} points lie in more than one)", what.empty() ? "" : " and ",
-                            scan.texture_seam_points);
+        what += fmt::format("{}several charts ({} in more than one)", what.empty() ? "" : " and ",
+                            base::counted(scan.texture_seam_points, "point lies", "points lie"));
     return fmt::format("its texture has {}: the resampled face gets a picture of its own", what);
 }
 

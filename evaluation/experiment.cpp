@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "evaluation/case_store.h"
 #include "evaluation/cast.h"
 #include "evaluation/target_unit.h"
@@ -67,9 +68,8 @@ private:
         const auto& code = planned.expression.code();
         const std::size_t count = cast.participants.size();
         if (count < fewest_subjects)
-            return failures_.add(
-                fmt::format("expression '{}': left out: {} subject{} left; an experiment needs {} or more", code, count,
-                            count == 1 ? " is" : "s are", fewest_subjects));
+            return failures_.add(fmt::format("expression '{}': left out: {} left; an experiment needs {} or more", code,
+                                             base::counted(count, "subject is", "subjects are"), fewest_subjects));
         in_order(
             count,
             [&](std::size_t t) {

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "evaluation/score.h"
 
 namespace mimik::evaluation {
@@ -84,8 +85,8 @@ ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const 
             if (auto id = workspace.scan_of(subject, expression)) planned.performances.push_back(std::move(*id));
         if (planned.performances.size() < fewest_subjects)
             plan.left_out.push_back(fmt::format(
-                "expression '{}': left out: {} subject{} it; an experiment needs {} or more", expression.code(),
-                planned.performances.size(), planned.performances.size() == 1 ? " shows" : "s show", fewest_subjects));
+                "expression '{}': left out: {} it; an experiment needs {} or more", expression.code(),
+                base::counted(planned.performances.size(), "subject shows", "subjects show"), fewest_subjects));
         else
             plan.expressions.push_back(std::move(planned));
     }

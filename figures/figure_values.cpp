@@ -22,7 +22,7 @@ void check_panel(const Panel& panel, const std::string& where) {
     for (const auto corner : mesh.faces.corners)
         require(corner < vertices, fmt::format("a face has the corner {}; there are {} vertices", corner, vertices));
     require(mesh.colours.empty() || mesh.colours.size() == vertices,
-            fmt::format("{} colours for {} vertices", mesh.colours.size(), vertices));
+            fmt::format("{} for {} vertices", base::counted(mesh.colours.size(), "colour"), vertices));
     require(std::isfinite(panel.view.yaw_deg) && std::abs(panel.view.yaw_deg) <= 180,
             fmt::format("yaw_deg is {}; give -180 to 180", panel.view.yaw_deg));
     require(std::isfinite(panel.view.pitch_deg) && std::abs(panel.view.pitch_deg) <= 89,

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::geometry {
 namespace {
@@ -304,8 +305,8 @@ std::vector<Triangle> delaunay(std::span<const Planar> points_mm, DelaunayReport
 
     const auto first = first_triangle(sorted, predicates);
     if (!first)
-        throw NumericalError(fmt::format(
-            "{} points lie on one line or in one place; a triangulation needs three that do not", points_mm.size()));
+        throw NumericalError(fmt::format("{} on one line or in one place; a triangulation needs three that do not",
+                                         base::counted(points_mm.size(), "point lies", "points lie")));
 
     Incremental triangulation(sorted, predicates);
     triangulation.begin(*first);

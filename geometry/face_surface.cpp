@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "geometry/polygon_triangles.h"
 
 namespace mimik::geometry {
@@ -24,9 +25,8 @@ FaceSurface face_surface(const QuadGrid& grid, Landmarks landmarks) {
 FaceSurface face_surface(const Mesh& mesh, Landmarks landmarks) {
     if (mesh.faces.size() == 0)
         throw InputError(
-            fmt::format("the mesh has {} vertices and no face; a face is animated by its surface, so give a "
-                        "mesh with faces",
-                        mesh.vertices_mm.size()));
+            fmt::format("the mesh has {} and no face; a face is animated by its surface, so give a mesh with faces",
+                        base::counted(mesh.vertices_mm.size(), "vertex", "vertices")));
     FaceSurface surface{mesh.vertices_mm,
                         triangulate(mesh.faces, mesh.vertices_mm),
                         VertexMask(mesh.vertices_mm.size(), 0),
@@ -81,9 +81,8 @@ FieldExtent field_extent(const FaceSurface& surface, std::span<const Vector> fie
 
 Mesh moved(Mesh mesh, const DisplacementField& field) {
     if (field.size() != mesh.vertices_mm.size())
-        throw InputError(
-            fmt::format("a field of {} vertices for a mesh of {}; take the field of this mesh's own surface",
-                        field.size(), mesh.vertices_mm.size()));
+        throw InputError(fmt::format("a field of {} for a mesh of {}; take the field of this mesh's own surface",
+                                     base::counted(field.size(), "vertex", "vertices"), mesh.vertices_mm.size()));
     for (std::size_t v = 0; v < field.size(); ++v) mesh.vertices_mm[v] += field.mm[v];
     return mesh;
 }

@@ -15,6 +15,7 @@
 
 #include "base/errors.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "geometry/box_distance.h"
 #include "geometry/crowded_surface.h"
 #include "geometry/triangle_foot.h"
@@ -368,8 +369,8 @@ std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_m
 std::vector<SurfacePoint> SurfaceIndex::closest(std::span<const Point> queries_mm,
                                                 std::span<const std::uint32_t> near_triangles) const {
     if (!near_triangles.empty() && near_triangles.size() != queries_mm.size())
-        throw InputError(fmt::format("{} near triangles for {} query points; give one for each", near_triangles.size(),
-                                     queries_mm.size()));
+        throw InputError(fmt::format("{} for {} query points; give one for each",
+                                     base::counted(near_triangles.size(), "near triangle"), queries_mm.size()));
     std::vector<SurfacePoint> answers(queries_mm.size());
     base::parallel_for(queries_mm.size(), 1024, [&](std::size_t begin, std::size_t end) {
         SearchEffort effort;

@@ -14,6 +14,7 @@
 
 #include "base/errors.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "geometry/cholesky_simd.h"
 #include "geometry/thin_plate_spline_simd.h"
 
@@ -53,14 +54,14 @@ std::string listed_names(std::span<const std::string> names, std::size_t count) 
 void check_input(std::span<const Point> source_mm, std::span<const Point> target_mm,
                  std::span<const std::string> names) {
     if (source_mm.size() != target_mm.size())
-        throw InputError(fmt::format("thin-plate spline: {} source points but {} target points; pair them one to one",
-                                     source_mm.size(), target_mm.size()));
+        throw InputError(fmt::format("thin-plate spline: {} but {} target points; pair them one to one",
+                                     base::counted(source_mm.size(), "source point"), target_mm.size()));
     if (!names.empty() && names.size() != source_mm.size())
-        throw InputError(fmt::format("thin-plate spline: {} names for {} points; give one name per point, or none",
-                                     names.size(), source_mm.size()));
+        throw InputError(fmt::format("thin-plate spline: {} for {} points; give one name per point, or none",
+                                     base::counted(names.size(), "name"), source_mm.size()));
     if (source_mm.size() < 4)
-        throw InputError(
-            fmt::format("thin-plate spline: {} point pairs, and it needs at least 4; add pairs", source_mm.size()));
+        throw InputError(fmt::format("thin-plate spline: {}, and it needs at least 4; add pairs",
+                                     base::counted(source_mm.size(), "point pair")));
     for (std::size_t i = 0; i < source_mm.size(); ++i)
         if (!source_mm[i].allFinite() || !target_mm[i].allFinite())
             throw InputError(

@@ -13,6 +13,7 @@
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "geometry/polygon_triangles.h"
 #include "io/formats/bytes.h"
 
@@ -161,11 +162,12 @@ void check(const GlbMesh& mesh) {
     };
     if (mesh.triangles.empty()) refuse("there is no triangle");
     if (!mesh.normals.empty() && mesh.normals.size() != n)
-        refuse(fmt::format("{} normals for {} vertices", mesh.normals.size(), n));
+        refuse(fmt::format("{} for {} vertices", base::counted(mesh.normals.size(), "normal"), n));
     if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != n)
-        refuse(fmt::format("{} texture positions for {} vertices", mesh.texture_coordinates.size(), n));
+        refuse(
+            fmt::format("{} for {} vertices", base::counted(mesh.texture_coordinates.size(), "texture position"), n));
     if (!mesh.colours.empty() && mesh.colours.size() != n)
-        refuse(fmt::format("{} colours for {} vertices", mesh.colours.size(), n));
+        refuse(fmt::format("{} for {} vertices", base::counted(mesh.colours.size(), "colour"), n));
     for (const auto& t : mesh.triangles)
         for (const auto corner : t) {
             if (corner >= n) refuse(fmt::format("a triangle names vertex {} of {}", corner, n));
@@ -185,8 +187,8 @@ void check(const GlbMesh& mesh) {
         if (!std::isfinite(static_cast<float>(target.weight)))
             not_finite(fmt::format("morph target '{}': weight {}", target.name, target.weight));
         if (target.displacement_mm.size() != n)
-            refuse(fmt::format("morph target '{}' has {} displacements for {} vertices", target.name,
-                               target.displacement_mm.size(), n));
+            refuse(fmt::format("morph target '{}' has {} for {} vertices", target.name,
+                               base::counted(target.displacement_mm.size(), "displacement"), n));
         for (const auto& t : mesh.triangles)
             for (const auto corner : t)
                 if (!finite_as_float(target.displacement_mm[corner]))
@@ -196,11 +198,12 @@ void check(const GlbMesh& mesh) {
     for (const auto& attribute : mesh.attributes) {
         const auto per_vertex = static_cast<std::size_t>(attribute.components);
         if (attribute.components < 1 || per_vertex > vector_types.size())
-            refuse(fmt::format("attribute '{}' has {} components; GLB holds 1 to {}", attribute.name,
-                               attribute.components, vector_types.size()));
+            refuse(fmt::format("attribute '{}' has {}; GLB holds 1 to {}", attribute.name,
+                               base::counted(attribute.components, "component"), vector_types.size()));
         if (attribute.values.size() != n * per_vertex)
-            refuse(fmt::format("attribute '{}' has {} values for {} vertices of {} components", attribute.name,
-                               attribute.values.size(), n, attribute.components));
+            refuse(fmt::format("attribute '{}' has {} for {} vertices of {}", attribute.name,
+                               base::counted(attribute.values.size(), "value"), n,
+                               base::counted(attribute.components, "component")));
         if (!semantics.insert(semantic(attribute)).second)
             refuse(fmt::format("two attributes would be called {}; leave one out", semantic(attribute)));
         for (const auto& t : mesh.triangles)

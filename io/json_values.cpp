@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "io/landmark_io.h"
 
 namespace mimik::io {
@@ -126,7 +127,7 @@ json to_json(const Vector& v) { return {v.x(), v.y(), v.z()}; }
 
 Vector vector_from_json(const json& v) {
     const auto xyz = v.get<std::array<double, 3>>();
-    if (v.size() != 3) throw InputError(fmt::format("{} numbers, not 3", v.size()));
+    if (v.size() != 3) throw InputError(fmt::format("{}, not 3", base::counted(v.size(), "number")));
     return {xyz[0], xyz[1], xyz[2]};
 }
 

@@ -166,7 +166,8 @@ LandmarkFile read_landmark_file(const std::filesystem::path& file) {
     result.frame = raw.frame;
     if (raw.unmarked > 0)
         result.remarks.push_back(
-            fmt::format("{}: {} points without a position are left out", file.string(), raw.unmarked));
+            fmt::format("{}: {} left out", file.string(),
+                        base::counted(raw.unmarked, "point without a position is", "points without a position are")));
     const Point factors = Point::Constant(millimetres_per(raw.unit.value_or(LengthUnit::millimetre)));
     result.landmarks = scaled(std::move(raw), factors, file.string());
     return result;

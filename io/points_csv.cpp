@@ -8,6 +8,7 @@
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/text.h"
 
 namespace mimik::io {
 
@@ -42,8 +43,8 @@ PointTable read_points_csv(const std::filesystem::path& file) {
 std::string encode_points_csv(const PointTable& table) {
     const bool named = !table.names.empty();
     if (named && table.names.size() != table.points.size())
-        throw InputError(fmt::format("{} names for {} points; every point needs one, or none has", table.names.size(),
-                                     table.points.size()));
+        throw InputError(fmt::format("{} for {} points; every point needs one, or none has",
+                                     base::counted(table.names.size(), "name"), table.points.size()));
     const char* coordinates = !table.frame ? "x,y,z\n" : *table.frame == BodyFrame::ras ? "r,a,s\n" : "l,p,s\n";
     std::string text = fmt::format("{}{}", !named ? "" : table.frame ? "label," : "name,", coordinates);
     for (std::size_t i = 0; i < table.points.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "facs/expression_zone.h"
 #include "geometry/face_axes.h"
 
@@ -93,7 +94,9 @@ PlacedControls place_controls(const facs::FacsCatalogue& catalogue, const facs::
                 placed.controls.push_back({fmt::format("coverage_{}_{}", row, col), facs::ControlKind::coverage, p});
         });
         if (!zone.whole_face() && 2 * off_the_face > in_zone)
-            placed.left_out.push_back(fmt::format("{} of {} coverage points meet no surface", off_the_face, in_zone));
+            placed.left_out.push_back(
+                fmt::format("{} of {} no surface", off_the_face,
+                            base::counted(in_zone, "coverage point meets", "coverage points meet")));
     }
     // The anchors' lattice reaches beyond every face, too: what meets none is no loss worth a word.
     if (kinds.anchors)

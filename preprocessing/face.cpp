@@ -7,6 +7,7 @@
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "io/image.h"
 #include "io/json_values.h"
 #include "io/mesh_io.h"
@@ -60,8 +61,8 @@ geometry::QuadGrid to_grid(geometry::Mesh mesh, int rows, int cols, const std::s
     grid.cols = cols;
     const auto vertices = mesh.vertices_mm.size();
     if (rows < 2 || cols < 2 || vertices != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))
-        throw InputError(fmt::format("{}: {} vertices where its .json says {} x {}; run 'mimik preprocess' again", name,
-                                     vertices, rows, cols));
+        throw InputError(fmt::format("{}: {} where its .json says {} x {}; run 'mimik preprocess' again", name,
+                                     base::counted(vertices, "vertex", "vertices"), rows, cols));
     if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != vertices)
         throw InputError(fmt::format("{}: {} texture coordinates for {} vertices; run 'mimik preprocess' again", name,
                                      mesh.texture_coordinates.size(), vertices));

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "geometry/delaunay.h"
 #include "geometry/disjoint_sets.h"
 #include "geometry/polygon_triangles.h"
@@ -494,8 +495,8 @@ std::vector<Planar> planar(std::span<const Point> points_mm) {
 void check_sizes(const RangeScan& scan) {
     const auto& p = scan.points_mm;
     if (!scan.texture_coordinates.empty() && scan.texture_coordinates.size() != p.size())
-        throw InputError(fmt::format("the scan has {} points but {} texture coordinates; give one per point or none",
-                                     p.size(), scan.texture_coordinates.size()));
+        throw InputError(fmt::format("the scan has {}{} texture coordinates; give one per point or none",
+                                     base::counted(p.size(), "point"), scan.texture_coordinates.size()));
     if (scan.organised() && static_cast<std::size_t>(scan.rows) * static_cast<std::size_t>(scan.cols) != p.size())
         throw InputError(
             fmt::format("the scan has {} points but a lattice of {} x {}", p.size(), scan.rows, scan.cols));
@@ -520,7 +521,8 @@ Extent extent_of(const RangeScan& scan) {
         extent.high = extent.high.cwiseMax(p[i].head<2>());
     }
     if (extent.points < 3)
-        throw InputError(fmt::format("the scan has {} valid points; a surface needs three or more", extent.points));
+        throw InputError(
+            fmt::format("the scan has {}; a surface needs three or more", base::counted(extent.points, "valid point")));
     if (!((extent.high - extent.low).minCoeff() > 0.0))
         throw NumericalError(fmt::format(
             "all {} points of the scan lie on one line in x-y; turn the face to the camera", extent.points));

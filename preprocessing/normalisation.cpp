@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::preprocessing {
 namespace {
@@ -17,10 +18,9 @@ Transform least_squares(const Landmarks& source, const Landmarks& target, bool w
     const auto pairing = geometry::pair_by_name(source, target);
     const auto n = static_cast<Eigen::Index>(pairing.pairs.size());
     if (n < 3)
-        throw InputError(
-            fmt::format("only {} landmarks are shared; a similarity needs three or more (eye corners, "
-                        "nose tip, mouth corners are best)",
-                        n));
+        throw InputError(fmt::format(
+            "only {} shared; a similarity needs three or more (eye corners, nose tip, mouth corners are best)",
+            base::counted(n, "landmark is", "landmarks are")));
     Eigen::Matrix3Xd from(3, n), to(3, n);
     for (Eigen::Index k = 0; k < n; ++k) {
         from.col(k) = pairing.pairs[static_cast<std::size_t>(k)].source_mm;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "geometry/point_index.h"
 #include "io/image.h"
 #include "preprocessing/bake_texture.h"
@@ -99,9 +100,10 @@ Face preprocess_scan(const database::LoadedScan& loaded, const ScanSteps& steps,
     judge_cloud(gridded, loaded, face.remarks);
     give_picture(face, loaded);
     if (const auto lost = cleaned.spikes + cleaned.stray_points; 20 * lost > cleaned.points)
-        face.remarks.push_back(
-            fmt::format("cleaning left out {} of {} points: {} spikes, and {} stray points in {} parts", lost,
-                        cleaned.points, cleaned.spikes, cleaned.stray_points, cleaned.stray_parts));
+        face.remarks.push_back(fmt::format("cleaning left out {} of {} points: {}, and {} in {}", lost, cleaned.points,
+                                           base::counted(cleaned.spikes, "spike"),
+                                           base::counted(cleaned.stray_points, "stray point"),
+                                           base::counted(cleaned.stray_parts, "part")));
     if (cleaning) *cleaning = cleaned;
     if (gridding) *gridding = gridded;
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 
 namespace mimik::preprocessing {
 
@@ -108,7 +109,8 @@ Step best_step(const std::vector<Pair>& pairs) {
 
 void check_weights(std::span<const double> weights, std::size_t points) {
     if (!weights.empty() && weights.size() != points)
-        throw InputError(fmt::format("{} weights for {} points; give one per point, or none", weights.size(), points));
+        throw InputError(fmt::format("{} for {} points; give one per point, or none",
+                                     base::counted(weights.size(), "weight"), points));
     for (const double weight : weights)
         if (!(weight >= 0) || !std::isfinite(weight))
             throw InputError(fmt::format("a weight is {}; give 0 or more", weight));

@@ -7,6 +7,7 @@
 
 #include "base/errors.h"
 #include "base/random_stream.h"
+#include "base/text.h"
 
 namespace mimik::synthesis {
 namespace {
@@ -106,9 +107,8 @@ FaceNumbers face_numbers(const Identity& identity) {
     const auto& scores = identity.coefficients;
     if (scores.size() != wanted)
         throw InputError(
-            fmt::format("identity of the built-in face has {} coefficients; it needs {}: draw it with this "
-                        "model's draw_identity",
-                        scores.size(), wanted));
+            fmt::format("identity of the built-in face has {}; it needs {}: draw it with this model's draw_identity",
+                        base::counted(scores.size(), "coefficient"), wanted));
     for (std::size_t i = 0; i < wanted; ++i)
         if (!(std::abs(scores[i]) <= furthest))
             throw InputError(

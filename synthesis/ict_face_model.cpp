@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/random_stream.h"
+#include "base/text.h"
 #include "synthesis/face_model.h"
 #include "synthesis/ict_obj.h"
 
@@ -118,8 +119,8 @@ public:
 
     std::vector<Point> neutral_mm(const Identity& identity) const override {
         if (identity.coefficients.size() != modes_.size())
-            throw InputError(fmt::format("identity has {} coefficients, the face model {} modes",
-                                         identity.coefficients.size(), modes_.size()));
+            throw InputError(fmt::format("identity has {}, the face model {} modes",
+                                         base::counted(identity.coefficients.size(), "coefficient"), modes_.size()));
         std::vector<Point> face = mean_;
         for (std::size_t m = 0; m < modes_.size(); ++m)
             for (std::size_t i = 0; i < face.size(); ++i) face[i] += identity.coefficients[m] * modes_[m][i];

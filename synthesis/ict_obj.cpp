@@ -14,9 +14,8 @@ namespace {
 
 void check_count(std::size_t vertices, std::size_t wanted, const std::string& name) {
     if (vertices < wanted)
-        throw InputError(
-            fmt::format("{}: {} vertices, the face model needs {}; the file is cut off or of another topology", name,
-                        vertices, wanted));
+        throw InputError(fmt::format("{}: {}, the face model needs {}; the file is cut off or of another topology",
+                                     name, base::counted(vertices, "vertex", "vertices"), wanted));
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ RawLandmarks decode_lm3(std::string_view text, const std::string& name) {
     RawLandmarks raw;
     for (std::size_t i = 0; i < count; ++i) {
         if (!lines.next_not_blank())
-            throw InputError(
-                fmt::format("{}: has {} of the {} landmarks that it announces; it is truncated", name, i, count));
+            throw InputError(fmt::format("{}: has {} of the {} that it announces; it is truncated", name, i,
+                                         base::counted(count, "landmark")));
         const auto label = base::trimmed(lines.line());
         if (!lines.next_not_blank())
             throw InputError(
@@ -75,8 +75,8 @@ RawLandmarks decode_lm3(std::string_view text, const std::string& name) {
         add_mark(raw, label, position, name);
     }
     if (lines.next_not_blank())
-        lines.fail(fmt::format("{} stands after the {} landmarks that the file announces; correct the number",
-                               base::in_quotes(lines.line()), count));
+        lines.fail(fmt::format("{} stands after the {} that the file announces; correct the number",
+                               base::in_quotes(lines.line()), base::counted(count, "landmark")));
     return raw;
 }
 

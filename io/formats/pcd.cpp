@@ -235,8 +235,8 @@ void load_field(const Field& field, const std::uint8_t* at, std::size_t stride, 
 void read_ascii(const Header& header, std::size_t count, base::LineReader& lines) {
     for (std::size_t i = 0; i < count; ++i) {
         if (!lines.next_not_blank())
-            throw InputError(fmt::format("{}: has {} of the {} points that the header promises; it is truncated",
-                                         lines.file_name(), i, count));
+            throw InputError(fmt::format("{}: has {} of the {} that the header promises; it is truncated",
+                                         lines.file_name(), i, base::counted(count, "point")));
         std::string_view rest = lines.line();
         for (const auto& field : header.fields)
             for (std::size_t c = 0; c < field.count; ++c) {
@@ -265,8 +265,8 @@ std::vector<std::uint8_t> decompress(std::span<const std::uint8_t> data, std::ui
         throw InputError(fmt::format("{}: the compressed data has {} bytes but only {} are left; it is truncated", name,
                                      packed, data.size() - 8));
     if (unpacked != wanted)
-        throw InputError(fmt::format("{}: the compressed data promises {} bytes, but WIDTH x HEIGHT points need {}",
-                                     name, unpacked, wanted));
+        throw InputError(fmt::format("{}: the compressed data promises {}, but WIDTH x HEIGHT points need {}", name,
+                                     base::counted(unpacked, "byte"), wanted));
     if (unpacked > best_lzf_ratio * packed)
         throw InputError(
             fmt::format("{}: {} compressed bytes cannot hold {}; the file is damaged", name, packed, unpacked));

@@ -175,16 +175,16 @@ std::size_t least_row_bytes(const Element& element, Encoding encoding) {
 void check_count(const Element& element, Encoding encoding, std::size_t bytes_left, const std::string& name) {
     // Rows without a byte could be any number.
     if (element.count > 0 && element.properties.empty())
-        throw InputError(fmt::format("{}: element {}: the header promises {} rows but no property; its header is wrong",
-                                     name, base::in_quotes(element.name), element.count));
+        throw InputError(fmt::format("{}: element {}: the header promises {} but no property; its header is wrong",
+                                     name, base::in_quotes(element.name), base::counted(element.count, "row")));
     const auto row = std::max<std::size_t>(1, least_row_bytes(element, encoding));
     // The last line of a text file may lack its end.
     const auto available = bytes_left + (encoding == Encoding::ascii ? 1 : 0);
     if (element.count > 0 && element.count > available / row)
         throw InputError(
-            fmt::format("{}: element {}: the header promises {} rows of at least {} bytes but only {} bytes are "
-                        "left; the file is truncated or its header wrong",
-                        name, base::in_quotes(element.name), element.count, row, bytes_left));
+            fmt::format("{}: element {}: the header promises {} of at least {} bytes but only {} bytes are left; the "
+                        "file is truncated or its header wrong",
+                        name, base::in_quotes(element.name), base::counted(element.count, "row"), row, bytes_left));
 }
 
 void read_ascii(Element& element, base::LineReader& lines) {
@@ -200,9 +200,9 @@ void read_ascii(Element& element, base::LineReader& lines) {
     };
     for (std::size_t row = 0; row < element.count; ++row) {
         if (!lines.next_not_blank())
-            throw InputError(
-                fmt::format("{}: element {} has {} of the {} rows that the header promises; the file is truncated",
-                            lines.file_name(), base::in_quotes(element.name), row, element.count));
+            throw InputError(fmt::format(
+                "{}: element {} has {} of the {} that the header promises; the file is truncated", lines.file_name(),
+                base::in_quotes(element.name), row, base::counted(element.count, "row")));
         std::string_view rest = lines.line();
         for (const auto& p : element.properties) {
             const double first = number(rest, p, p.column || p.count_type);
@@ -212,8 +212,8 @@ void read_ascii(Element& element, base::LineReader& lines) {
             }
             // A value takes at least a blank and a digit.
             if (!(first >= 0 && first <= static_cast<double>(rest.size()) / 2 && first == std::floor(first)))
-                lines.fail(fmt::format("list {} has count {}, but the line has {} characters left",
-                                       base::in_quotes(p.name), first, rest.size()));
+                lines.fail(fmt::format("list {} has count {}, but the line has {} left", base::in_quotes(p.name), first,
+                                       base::counted(rest.size(), "character")));
             values.clear();
             for (std::size_t k = 0; k < static_cast<std::size_t>(first); ++k)
                 values.push_back(number(rest, p, p.list != nullptr));
@@ -509,9 +509,8 @@ void take_textures(const TextureNumbers& numbers, std::vector<std::string> image
     file.face_textures.resize(file.mesh.faces.size(), no_picture);  // those of strips
     if (without > 0)
         file.remarks.push_back(
-            fmt::format("{}: 'texnumber' of {} faces is that of no image (there are {}); they have no "
-                        "picture",
-                        name, without, count));
+            fmt::format("{}: 'texnumber' of {} that of no image (there are {}), so there is no picture on {}", name,
+                        base::counted(without, "face is", "faces is"), count, without == 1 ? "it" : "them"));
 }
 
 /// Stanford's way: strips of triangles one after another, each ended by -1. Triangles that repeat a corner only turn a
@@ -585,14 +584,16 @@ MeshFile decode_ply(std::span<const std::uint8_t> bytes, const std::string& name
 
     take_textures(textures, std::move(header.texture_files), file, name);
     colours.store(file.mesh.colours);
-    const auto remark = [&](std::size_t count, const char* what) {
-        if (count > 0) file.remarks.push_back(fmt::format("{}: {} {}", name, count, what));
+    const auto remark = [&](std::size_t count, const char* one, const char* many, const char* done) {
+        if (count > 0) file.remarks.push_back(fmt::format("{}: {} {}", name, base::counted(count, one, many), done));
     };
-    remark(corner_texture.store(file.mesh), "faces have no texture position for each corner; they get (0, 0)");
-    remark(counts.too_small, "faces have fewer than 3 corners; they are left out");
+    remark(corner_texture.store(file.mesh), "face has no texture position for each corner; it gets",
+           "faces have no texture position for each corner; they get", "(0, 0)");
+    remark(counts.too_small, "face has fewer than 3 corners; it is", "faces have fewer than 3 corners; they are",
+           "left out");
     const bool ascii = header.encoding == Encoding::ascii;
     const auto rest = as_text(bytes).substr(ascii ? lines.offset() : offset);
-    remark(trailing_bytes(rest), "bytes behind the last element are passed over");
+    remark(trailing_bytes(rest), "byte behind the last element is", "bytes behind the last element are", "passed over");
     return file;
 }
 

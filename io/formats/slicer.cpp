@@ -89,7 +89,8 @@ RawLandmarks decode_fcsv(std::string_view text, const std::string& name) {
         if (std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); })) continue;
         const auto last = std::max({columns.x, columns.y, columns.z});
         if (fields.size() <= last)
-            lines.fail(fmt::format("has {} fields; a point needs at least {}", fields.size(), last + 1));
+            lines.fail(
+                fmt::format("has {}; a point needs at least {}", base::counted(fields.size(), "field"), last + 1));
         const auto field = [&](std::optional<std::size_t> column) {
             return column && *column < fields.size() ? fields[*column] : std::string();
         };
@@ -115,8 +116,8 @@ RawLandmarks decode_mrk_json(std::string_view text, const std::string& name) {
         !json["markups"][0].is_object())
         throw InputError(fmt::format("{}: has no list 'markups'; it is not a Slicer .mrk.json file", name));
     if (json["markups"].size() > 1)
-        throw InputError(fmt::format("{}: 'markups' holds {} lists; save each list of points to a file of its own",
-                                     name, json["markups"].size()));
+        throw InputError(fmt::format("{}: 'markups' holds {}; save each list of points to a file of its own", name,
+                                     base::counted(json["markups"].size(), "list")));
     const auto& markup = json["markups"][0];
     RawLandmarks raw;
     raw.either_frame = true;

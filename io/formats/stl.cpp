@@ -150,7 +150,9 @@ private:
             in_loop_ = true;
             corners_ = 0;
         } else if (word == "endloop") {
-            if (corners_ != 3) words_.fail(fmt::format("a facet has {} vertices; an STL facet has 3", corners_));
+            if (corners_ != 3)
+                words_.fail(
+                    fmt::format("a facet has {}; an STL facet has 3", base::counted(corners_, "vertex", "vertices")));
             in_loop_ = false;
         } else if (word == "normal") {
             for (int axis = 0; axis < 3; ++axis) {
@@ -219,9 +221,8 @@ MeshFile decode_stl(std::span<const std::uint8_t> bytes, const std::string& name
                 ? fmt::format("{}: has {} bytes and does not start with 'solid'; it is not an STL file", name,
                               bytes.size())
                 : fmt::format(
-                      "{}: has {} bytes, but the {} triangles of its header (byte 80) need {}; it is truncated, or no "
-                      "STL file",
-                      name, bytes.size(), promised, needed));
+                      "{}: has {} bytes, but the {} of its header (byte 80) need {}; it is truncated, or no STL file",
+                      name, bytes.size(), base::counted(promised, "triangle"), needed));
     AsciiReader(text, name, file).read();
     return file;
 }

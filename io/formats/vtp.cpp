@@ -156,8 +156,9 @@ public:
         read_point_data(piece.child("PointData"), mesh);
         read_corner_texture(data.child("FieldData"), file);
         if (small_cells_ > 0)
-            file.remarks.push_back(
-                fmt::format("{}: {} faces have fewer than 3 corners; they are left out", name_, small_cells_));
+            file.remarks.push_back(fmt::format("{}: {} left out", name_,
+                                               base::counted(small_cells_, "face has fewer than 3 corners; it is",
+                                                             "faces have fewer than 3 corners; they are")));
         return file;
     }
 
@@ -173,11 +174,11 @@ private:
     void admit(const Values& array, const std::string& what, std::uint64_t values, std::optional<std::int64_t> points) {
         const auto components = static_cast<std::uint64_t>(array.components);
         if (values % components != 0)
-            fail(fmt::format("array {} has {} values, not a multiple of its {} components", base::in_quotes(what),
-                             values, components));
+            fail(fmt::format("array {} has {}, not a multiple of its {} components", base::in_quotes(what),
+                             base::counted(values, "value"), components));
         if (points && values / components != static_cast<std::uint64_t>(*points))
-            fail(fmt::format("array {} has {} entries, but NumberOfPoints is {}", base::in_quotes(what),
-                             values / components, *points));
+            fail(fmt::format("array {} has {}, but NumberOfPoints is {}", base::in_quotes(what),
+                             base::counted(values / components, "entry", "entries"), *points));
         if (values > memory_left_ / sizeof(double))
             fail(
                 fmt::format("array {} has {} values; with it all arrays take more than {} MB of memory; leave arrays "

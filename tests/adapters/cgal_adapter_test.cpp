@@ -47,7 +47,7 @@ TEST(CgalAdapter, what_a_surface_mesh_cannot_hold_is_said) {
     Remarks remarks;
     const auto surface = to_cgal<CgalPoint>(mesh, remarks);
     EXPECT_EQ(surface.number_of_faces(), 2U);
-    EXPECT_THAT(remarks, ElementsAre(HasSubstr("1 faces of fewer"), HasSubstr("5 texture coordinates"),
+    EXPECT_THAT(remarks, ElementsAre(HasSubstr("1 face of fewer"), HasSubstr("5 texture coordinates"),
                                      HasSubstr("displacement_mm")));
 }
 

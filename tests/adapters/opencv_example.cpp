@@ -33,7 +33,9 @@ void find_a_spike() {
     expect(remarks.empty(), "nothing is lost on the way");
 
     image.at<cv::Vec3f>(0, 0)[2] = std::numeric_limits<float>::infinity();
-    expect(!range_scan_from(image, remarks).valid(19 * 30) && says(remarks, "1 points"), "half a point is counted");
+    expect(
+        !range_scan_from(image, remarks).valid(19 * 30) && says(remarks, "1 point with some finite coordinates counts"),
+        "half a point is counted");
     expect(refused([&] { (void)range_scan_from(cv::Mat(2, 2, CV_16UC1), remarks); }, "CV_64FC3"), "depth is refused");
     expect(refused([&] { (void)to_opencv(geometry::RangeScan(), remarks); }, "lattice"), "a bare cloud is refused");
 }

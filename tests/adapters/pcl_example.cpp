@@ -56,7 +56,8 @@ void clouds_keep_their_lattice() {
 
     cloud.height = 1;
     cloud.width = 6;
-    expect(range_scan_from(cloud, remarks).points_mm.size() == 5 && says(remarks, "1 points"), "a bare cloud drops it");
+    expect(range_scan_from(cloud, remarks).points_mm.size() == 5 && says(remarks, "1 point that"),
+           "a bare cloud drops it");
     cloud.width = 5;
     expect(refused([&] { (void)range_scan_from(cloud, remarks); }, "5 x 1"), "a false width is refused");
 }
@@ -71,7 +72,7 @@ void losses_are_said_or_refused() {
     mesh.faces.add(std::vector<std::uint32_t>{0, 1});
     Remarks remarks;
     auto out = to_pcl(mesh, remarks);
-    for (const auto* words : {"1 faces", "single precision", "texture", "distance_mm"})
+    for (const auto* words : {"1 face of", "single precision", "texture", "distance_mm"})
         expect(says(remarks, words), std::string("a remark says ") + words);
     expect(from_pcl(out, remarks).colours == mesh.colours, "colours are kept");
     out.polygons[0].vertices[0] = 3;

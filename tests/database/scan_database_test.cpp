@@ -60,7 +60,7 @@ TEST(ScanDatabase, a_scan_whose_texture_name_leads_elsewhere_is_loaded_without_i
     const auto loaded = load(entry);
     EXPECT_EQ(loaded.scan.points_mm.size(), 3U);
     EXPECT_THAT(loaded.remarks, Contains(HasSubstr("a.mtl: texture name is 'C:\\scans\\face.jpg'")));
-    EXPECT_THAT(loaded.remarks, Contains(HasSubstr("several charts (1 points lie in more than one)")));
+    EXPECT_THAT(loaded.remarks, Contains(HasSubstr("several charts (1 point lies in more than one)")));
     const auto findings = check_scan(entry, nullptr);
     const auto finding =
         std::find_if(findings.begin(), findings.end(), [](const Finding& f) { return f.kind == "texture"; });

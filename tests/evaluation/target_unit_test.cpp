@@ -298,7 +298,7 @@ TEST_F(ScoreTarget, a_field_of_another_surface_is_refused_by_the_name_of_its_met
     const auto gathered = cast(planned);
     (void)score_target(*reader_, planned, gathered, 0, failures_);
     EXPECT_THAT(failures_.sorted(),
-                ElementsAre(AllOf(HasSubstr("by too-short: "), HasSubstr("gave 1 displacements and 1 answers"))));
+                ElementsAre(AllOf(HasSubstr("by too-short: "), HasSubstr("gave 1 displacement and 1 answer for"))));
 }
 
 TEST_F(ScoreTarget, a_target_whose_zone_sees_nothing_has_no_row_and_is_listed) {

@@ -71,7 +71,7 @@ TEST_F(FigureProgram, bad_input_ends_with_2_and_one_line_that_names_it) {
                            {"-o out.png face.ply --size 12", "--size is '12'"},
                            {"-o out.png face.ply --range 0 1", "--range needs --scalar"},
                            {"-o out.png face.ply --scalar depth", "no attribute 'depth'"},
-                           {"-o out.png face.ply --caption a --caption b", "--caption is given 2 times for 1 panels"},
+                           {"-o out.png face.ply --caption a --caption b", "--caption is given 2 times for 1 panel"},
                            {"-o out.png face.ply - - --view left --view right", "--view is given 2 times for 3 panels"},
                            {"-o out.png --description d.json --title t", "--title and --description exclude"},
                            {"-o out.png --frobnicate", "--frobnicate"}}) {

@@ -224,7 +224,7 @@ TEST(Glb, errors_name_the_mesh_and_the_part) {
     EXPECT_THAT(not_finite([](GlbMesh& m) { m.morph_targets[0].displacement_mm[4].x() = std::nan(""); }),
                 HasSubstr("'AU12_L': the displacement of vertex 4"));
     EXPECT_THAT(refused([](GlbMesh& m) { m.attributes[0].values.pop_back(); }),
-                HasSubstr("attribute 'origin' has 20 values for 21 vertices of 1 components"));
+                HasSubstr("attribute 'origin' has 20 values for 21 vertices of 1 component"));
     EXPECT_THAT(refused([](GlbMesh& m) { m.attributes[0].components = 5; }), HasSubstr("'origin' has 5 components"));
     EXPECT_THAT(refused([](GlbMesh& m) {
                     m.attributes[1] = {"Origin", 1, m.attributes[0].values};

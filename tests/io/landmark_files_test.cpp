@@ -282,7 +282,7 @@ TEST(Lm3, errors_name_line_and_landmark) {
     EXPECT_THAT(refused(LandmarkFormat::lm3, "#\n\n1 landmarks:\nChin middle\n1 x 3\n"),
                 HasSubstr("marks: line 5: coordinate of landmark 'Chin middle' is 'x'"));
     EXPECT_THAT(refused(LandmarkFormat::lm3, "#\n\n1 landmarks:\nChin middle\n1 2 3\nNose tip\n4 5 6\n"),
-                HasSubstr("marks: line 6: 'Nose tip' stands after the 1 landmarks"));
+                HasSubstr("marks: line 6: 'Nose tip' stands after the 1 landmark that"));
 }
 
 }  // namespace

@@ -128,7 +128,9 @@ TEST_F(MeshTextures, of_a_ply_belong_to_its_faces_by_number) {
                          "3 0 1 2 6 0 0 1 0 0 1 1\n3 0 1 2 6 0 0 1 0 0 1 0\n3 0 1 2 6 0 0 1 0 0 1 7\n");
     EXPECT_THAT(file.texture_files, ElementsAre("up.png", "low.png"));
     EXPECT_THAT(file.face_textures, ElementsAre(0U, 1U, no_picture));
-    EXPECT_THAT(file.remarks, ElementsAre(HasSubstr("'texnumber' of 1 faces is that of no image (there are 2)")));
+    EXPECT_THAT(file.remarks,
+                ElementsAre(HasSubstr(
+                    "'texnumber' of 1 face is that of no image (there are 2), so there is no picture on it")));
     file = read_ply(head + "end_header\n" + points +
                     "3 0 1 2 6 0 0 1 0 0 1\n3 0 1 2 6 0 0 1 0 0 1\n3 0 1 2 6 0 0 1 0 0 1\n");
     EXPECT_EQ(file.texture_file, "low.png");

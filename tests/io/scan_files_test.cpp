@@ -63,7 +63,7 @@ TEST(Stl, a_binary_file_that_begins_with_solid_is_known_by_its_size) {
     EXPECT_THAT(decode(MeshFormat::stl, text + "xyz").remarks,
                 ElementsAre("scan: 3 bytes behind the last triangle are passed over"));
     EXPECT_THAT(refused(MeshFormat::stl, text.substr(0, 133)),
-                HasSubstr("scan: has 133 bytes, but the 1 triangles of its header (byte 80) need 134"));
+                HasSubstr("scan: has 133 bytes, but the 1 triangle of its header (byte 80) need 134"));
     text[80] = text[81] = text[82] = text[83] = '\xFF';
     EXPECT_THAT(refused(MeshFormat::stl, text),
                 HasSubstr("the 4294967295 triangles of its header (byte 80) need 214748364834"));
@@ -76,7 +76,7 @@ TEST(Stl, errors_name_line_and_value) {
                 HasSubstr("scan: line 4: z is 'up', not a finite number"));
     EXPECT_THAT(refused(MeshFormat::stl, head + "vertex 0 0 nan\n"), HasSubstr("scan: line 4: z is 'nan'"));
     EXPECT_THAT(refused(MeshFormat::stl, head + "vertex 0 0 0\nendloop\n"),
-                HasSubstr("scan: line 5: a facet has 1 vertices"));
+                HasSubstr("scan: line 5: a facet has 1 vertex"));
     EXPECT_THAT(refused(MeshFormat::stl, head + "vertex 0 0 0\n"), HasSubstr("the last facet has no 'endloop'"));
     EXPECT_THAT(refused(MeshFormat::stl, head + "vertex 0 0 0\nouter loop\n"),
                 HasSubstr("scan: line 5: an 'outer loop' stands inside another"));
@@ -225,7 +225,7 @@ TEST(Pcd, absurd_sizes_are_refused_before_anything_is_allocated) {
     const auto sizes = text.find("binary_compressed\n") + 18;
     text[sizes + 4] = 1;
     EXPECT_THAT(refused(MeshFormat::pcd, text),
-                HasSubstr("the compressed data promises 1 bytes, but WIDTH x HEIGHT points need 72"));
+                HasSubstr("the compressed data promises 1 byte, but WIDTH x HEIGHT points need 72"));
     text = lattice("binary_compressed");
     text[sizes + 8] = '\xFF';  // a repetition of what has not been
     EXPECT_THAT(refused(MeshFormat::pcd, text), HasSubstr("the compressed data is damaged"));

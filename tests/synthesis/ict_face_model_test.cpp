@@ -95,7 +95,7 @@ TEST(IctObj, hostile_files_are_refused_with_file_line_and_value) {
     EXPECT_THAT(error("v 0 0 0\nv 0 nan 0\n"), testing::HasSubstr("s.obj: line 2: coordinate 2 is 'nan'"));
     EXPECT_THAT(error("v 0 0 0\nv 0 0\n"), testing::HasSubstr("s.obj: line 2: coordinate 3 is ''"));
     EXPECT_THAT(error("v 0 0 0\nv 0 0 1e999\n"), testing::HasSubstr("s.obj: line 2: coordinate 3 is '1e999'"));
-    EXPECT_THAT(error("v 0 0 0\nv 0 0 0"), testing::HasSubstr("s.obj: 1 vertices, the face model needs 2"));
+    EXPECT_THAT(error("v 0 0 0\nv 0 0 0"), testing::HasSubstr("s.obj: 1 vertex, the face model needs 2"));
     EXPECT_THAT(database::message_of<InputError>(
                     [&] { (void)decode_ict_skin(bytes_of("v 0 0 0\nv 1 0 0\nf 1 2 9999999\n"), "m.obj", 2); }),
                 testing::HasSubstr("m.obj: line 3: vertex index is 9999999, but the file has 2"));
