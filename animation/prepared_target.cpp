@@ -1,6 +1,5 @@
 #include "animation/prepared_target.h"
 
-
 #include <fmt/format.h>
 
 #include "base/errors.h"

@@ -195,8 +195,9 @@ int run(Arguments& arguments) {
         if (!arguments.common.quiet) print_remarks(report, database.remarks);
         if (report.from_earlier_runs > 0 && !arguments.common.quiet)
             std::cerr << fmt::format(
-                "note: {} in the workspace and up to date\n",
-                base::counted(report.from_earlier_runs, "scan of earlier runs stays", "scans of earlier runs stay"));
+                "note: {} kept up to date\n",
+                base::counted(report.from_earlier_runs, "scan of earlier runs stays in the workspace and is",
+                              "scans of earlier runs stay in the workspace and are"));
         for (const auto& failure : report.failures)
             std::cerr << one_line(fmt::format("{}: {}", failure.scan, failure.reason)) << '\n';
         print_way_out(report);

@@ -53,13 +53,14 @@ std::string database_mark(const fs::path& root) {
 
 std::string remember_database(const fs::path& root) {
     const auto path = whole(root);
+    const auto mark = database_mark(path);
     const auto memory = memory_of(digest_of_path(path));
     try {
-        if (!memory.empty() && !base::is_there(memory)) base::write_atomically(memory, path.string());
+        if (!memory.empty() && database_of_mark(mark) != path) base::write_atomically(memory, path.string());
     } catch (const InputError&) {
         // A full disk, a home that takes no files: then the lists are looked for beside the file alone.
     }
-    return database_mark(path);
+    return mark;
 }
 
 fs::path database_of_mark(std::string_view mark) {

@@ -26,7 +26,8 @@ for extension in ply obj vtp; do
   "$mimik" animate broken_work --source mean --target bs002 --au 4 -o elsewhere/face.$extension --quiet >/dev/null
 done
 "$mimik" distance elsewhere/face.ply broken_work/average/average_face.ply -o elsewhere/far.vtp --quiet >/dev/null
-"$mimik" warp --from "$shared/db1/bs002/bs002_N_N_0.lm3" --to "$shared/db1/bs002/bs002_N_N_0.lm3" elsewhere/face.ply -o elsewhere/again.ply --quiet >/dev/null
+printf 'name,x,y,z\na,0,0,0\nb,40,0,0\nc,0,40,0\nd,0,0,40\ne,40,40,40\n' >box.csv
+"$mimik" warp --from box.csv --to box.csv elsewhere/face.ply -o elsewhere/again.ply --quiet >/dev/null
 ! grep -aFe "$PWD" -e "$shared" elsewhere/*.{ply,obj,mtl} || fail "a file tells where its database lies"
 grep -qa '^comment database: broken ([0-9a-f]\{16\})$' elsewhere/face.ply && grep -qa '^comment database: broken (' elsewhere/again.ply || fail "no word of the database"
 claim "what is passed on names its database and no folder of this machine"
@@ -47,7 +48,6 @@ claim "a subject who must not be shown is not"
 
 mkdir -p db/bs003
 printf 'v 0 0 0\nv 40 0 0\nv 40 40 0\nv 0 40 0\nf 1 2 3 4\n' >plain.obj
-printf 'name,x,y,z\na,0,0,0\nb,40,0,0\nc,0,40,0\nd,0,0,40\ne,40,40,40\n' >box.csv
 cp plain.obj db/bs003/bs003_N_N_0.obj
 cp box.csv db/bs003/bs003_N_N_0.csv
 echo bs003 >db/unallowed_subjects.txt

@@ -29,8 +29,8 @@ claim "without the drawing program the faces of the panels are there and 1 says 
 expect_code 1 "mimik-figure is neither" without_drawing_program panels work1 --source bs000 --target bs001 --au 12 --method true-field -o panels --json
 made=panels/AU12_bs000_on_bs001_true-field
 [ -s $made/source_animated.ply ] && [ -s $made/target_animated.ply ] && [ -z "$(find $made -name '*controls*')" ] || fail "files of a true field"
-# What the subject's own true motion leaves of the way to its own scan is noise; the built-in model leaves more.
-awk '/"explained"/ { sub(/.*: */, ""); if ($0 + 0 < 0.4) exit 1; n++ } END { exit n != 2 }' out.txt || { cat out.txt; fail "a true field explains little"; }
+# The source's own true motion leaves the scanner's noise of the way to its scan; on the target it is another's.
+awk '/"explained"/ { sub(/.*: */, ""); value[++n] = $0 + 0 } END { exit !(n == 2 && value[1] > 0.7 && value[2] > 0) }' out.txt || { cat out.txt; fail "a true field explains little"; }
 expect_code 1 "mimik-figure is neither" without_drawing_program panels work1 --target bs001 --au 12 --method true-field-mean -o panels
 [ ! -e panels/AU12_mean_on_bs001_true-field-mean/average_neutral.ply ] && [ -s panels/AU12_mean_on_bs001_true-field-mean/target_real.ply ]
 expect_code 2 "method 'true-field' learns from one source; name a subject" "$mimik" panels work1 --target bs001 --au 12 --method true-field -o nothing

@@ -15,6 +15,7 @@
 #include "base/folder_lock.h"
 #include "base/parallel.h"
 #include "facs/facs_catalogue.h"
+#include "io/landmark_io.h"
 #include "preprocessing/preprocess_run.h"
 #include "preprocessing/scan_reading.h"
 #include "preprocessing/workspace.h"
