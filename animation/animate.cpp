@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "animation/combine.h"
+#include "animation/dense_field.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "facs/face_regions.h"
@@ -106,6 +107,15 @@ Controls carry(const PreparedTarget& target, const ExpressionModel& model, const
     return controls;
 }
 
+/// What AnimationOptions::keep says, if anything.
+const std::vector<double>& kept_shares(const geometry::FaceSurface& surface, const AnimationOptions& options) {
+    if (!options.keep.empty() && options.keep.size() != surface.size())
+        throw InputError(fmt::format("keep has {} for {}; give one per vertex of the target",
+                                     base::counted(options.keep.size(), "weight"),
+                                     base::counted(surface.size(), "vertex", "vertices")));
+    return options.keep;
+}
+
 /// How much of the expression each vertex takes: an AU of one half of the face leaves the other alone.
 std::vector<double> vertex_weights(const geometry::FaceSurface& surface, const ExpressionModel& model,
                                    const AnimationOptions& options) {
@@ -113,12 +123,8 @@ std::vector<double> vertex_weights(const geometry::FaceSurface& surface, const E
     if (model.moves_upper_face != model.moves_lower_face)
         weights = facs::region_weights(surface.vertices_mm, surface.present, surface.landmarks, model.moves_lower_face,
                                        options.border_mm);
-    if (options.keep.empty()) return weights;
-    if (options.keep.size() != weights.size())
-        throw InputError(fmt::format("keep has {} for {}; give one per vertex of the target",
-                                     base::counted(options.keep.size(), "weight"),
-                                     base::counted(weights.size(), "vertex", "vertices")));
-    for (std::size_t v = 0; v < weights.size(); ++v) weights[v] *= options.keep[v];
+    const auto keep = kept_shares(surface, options);
+    for (std::size_t v = 0; v < keep.size(); ++v) weights[v] *= keep[v];
     return weights;
 }
 
@@ -128,6 +134,15 @@ geometry::DisplacementField expression_field(const PreparedTarget& target, const
                                              const AnimationOptions& options, std::vector<CarriedPoint>* points,
                                              std::vector<std::string>* remarks) {
     options.check();
+    if (model.dense) {
+        if (points) (void)carry(target, model, options, points, remarks);
+        auto field = dense_field(target, *model.dense);
+        if (!options.keep.empty()) {
+            const auto keep = kept_shares(target.surface(), options);
+            for (std::size_t v = 0; v < field.size(); ++v) field.mm[v] *= keep[v];
+        }
+        return field;
+    }
     const Controls controls = carry(target, model, options, points, remarks);
     const auto warp = geometry::ThinPlateSpline::fit(
         controls.from, controls.to, {.kernel = options.kernel, .smoothing = options.smoothing}, controls.names);
@@ -220,6 +235,19 @@ std::optional<bool> lips_closed(const geometry::FaceSurface& neutral) {
     return 2 * open < columns;
 }
 
+bool torn_lips(std::span<const preprocessing::LipSide> lip_sides, std::span<const Vector> field_mm,
+               std::span<const std::uint32_t> corners) {
+    constexpr double parted_by_mm = 0.5;
+    using preprocessing::LipSide;
+    if (lip_sides.empty()) return false;
+    for (const auto a : corners)
+        for (const auto b : corners)
+            if (lip_sides[a] == LipSide::upper && lip_sides[b] == LipSide::lower &&
+                (field_mm[a] - field_mm[b]).norm() > parted_by_mm)
+                return true;
+    return false;
+}
+
 namespace {
 
 /// Less is told by expressions that leave the lips together (AU 12, 14, 15, 20: up to 0.5 mm by default), more by those
@@ -230,7 +258,7 @@ void remark_closed_lips(const PreparedTarget& target, std::span<const WeightedEx
                         std::vector<std::string>& remarks) {
     if (!lips_closed(target.surface()).value_or(false)) return;
     for (const auto& [model, magnitude] : expressions)
-        if (magnitude * lip_parting_mm(*model) > parted_mm)
+        if (!model->dense && magnitude * lip_parting_mm(*model) > parted_mm)
             remarks.push_back(
                 fmt::format("{} pulls the lips apart, but those of {} are closed: they are one piece of surface, which "
                             "is stretched and does not open; take a target whose neutral scan has open lips",
@@ -269,6 +297,9 @@ AnimatedFace animate(const PreparedTarget& target, std::span<const WeightedExpre
     result.combination = options.combination;
     for (const auto& weighted : expressions) result.shapes.push_back(shape_of(target, weighted, options, result));
     remark_closed_lips(target, expressions, result.remarks);
+    for (const auto& weighted : expressions)
+        if (weighted.model->dense && result.lip_sides.empty())
+            result.lip_sides = lip_sides(target, *weighted.model->dense);
     const auto& surface = target.surface();
     result.field = geometry::DisplacementField::still(surface.size());
     result.field.answered = surface.present;

@@ -85,9 +85,15 @@ struct AnimatedFace {
     Combination combination = Combination::sum;       ///< of `shapes`, into `field`
     std::vector<geometry::DisplacementField> shapes;  ///< of each expression alone at magnitude 1
     std::vector<CarriedPoint> points;
-    std::vector<std::string> remarks;  ///< merged points, magnitudes above 1, closed lips, ...
-    geometry::FieldExtent extent;      ///< of `field`
+    std::vector<std::string> remarks;               ///< merged points, magnitudes above 1, closed lips, ...
+    geometry::FieldExtent extent;                   ///< of `field`
+    std::vector<preprocessing::LipSide> lip_sides;  ///< per vertex, of dense models; else empty
 };
+
+/// Whether the surface between some vertices is torn by a motion: they lie on both lips, which part there by more than
+/// half a millimetre.
+[[nodiscard]] bool torn_lips(std::span<const preprocessing::LipSide> lip_sides,
+                             std::span<const geometry::Vector> field_mm, std::span<const std::uint32_t> corners);
 
 /// The motion of every vertex under one model at magnitude 1, in the target's frame. The field at another magnitude m
 /// is m times this one: the spline is linear in the displacements of its controls. Carries the controls by the landmark

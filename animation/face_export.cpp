@@ -22,6 +22,21 @@ namespace {
 
 enum class Positions { neutral, animated };
 
+/// Leaves out the faces that parting lips would stretch into a web.
+void cut_lips(Mesh& mesh, const AnimatedFace& animated, std::span<const std::uint32_t> kept) {
+    if (animated.lip_sides.empty()) return;
+    geometry::Faces whole;
+    std::vector<std::uint32_t> corners;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        corners.clear();
+        for (const auto v : mesh.faces[f]) corners.push_back(kept[v]);
+        bool torn = torn_lips(animated.lip_sides, animated.field.mm, corners);
+        for (const auto& shape : animated.shapes) torn = torn || torn_lips(animated.lip_sides, shape.mm, corners);
+        if (!torn) whole.add(mesh.faces[f]);
+    }
+    mesh.faces = std::move(whole);
+}
+
 /// The grid in the frame asked for, with the displacement of its neutral vertices as an attribute.
 Mesh mesh_of(const AnimatedFace& animated, const preprocessing::Face& neutral, const ExportOptions& options,
              Positions positions, std::vector<std::uint32_t>* kept_vertices = nullptr) {
@@ -39,6 +54,7 @@ Mesh mesh_of(const AnimatedFace& animated, const preprocessing::Face& neutral, c
         displacement.values.insert(displacement.values.end(), d.begin(), d.end());
     }
     mesh.attributes.insert(mesh.attributes.begin(), std::move(displacement));
+    cut_lips(mesh, animated, kept);
     if (kept_vertices) *kept_vertices = std::move(kept);
     return mesh;
 }

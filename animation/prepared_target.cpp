@@ -1,5 +1,7 @@
 #include "animation/prepared_target.h"
 
+#include <map>
+
 #include <fmt/format.h>
 
 #include "base/errors.h"
@@ -48,6 +50,8 @@ struct PreparedTarget::Parts {
     std::array<std::optional<NormalisedTarget>, 2> normalised;
     std::once_flag locating;
     std::optional<MaterialPoints> material;
+    std::mutex keeping;
+    std::map<std::shared_ptr<const void>, std::shared_ptr<const void>> kept;  // by owner
 
     [[nodiscard]] const geometry::Transform& to_average_by(Normalisation normalisation) const {
         const auto& to_average = average_from_target[static_cast<std::size_t>(normalisation)];
@@ -126,6 +130,14 @@ const MaterialPoints& PreparedTarget::material_points() const {
             fmt::format("{}: its true surface is not known; take a database of 'mimik synthesize'", name()));
     std::call_once(parts_->locating, [&] { parts_->material.emplace(parts_->locate()); });
     return *parts_->material;
+}
+
+std::shared_ptr<const void> PreparedTarget::kept(const std::shared_ptr<const void>& owner,
+                                                 const std::function<std::shared_ptr<const void>()>& make) const {
+    const std::scoped_lock lock(parts_->keeping);
+    auto& kept = parts_->kept[owner];
+    if (!kept) kept = make();
+    return kept;
 }
 
 Point nearest_vertex(const PreparedTarget& target, const NormalisedTarget& normalised, const Point& query_mm) {

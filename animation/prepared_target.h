@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -54,6 +55,9 @@ public:
     [[nodiscard]] bool has_truth() const;
     /// @throws InputError without a truth.
     [[nodiscard]] const MaterialPoints& material_points() const;
+    /// What somebody needs of this face again and again: made when `owner` first asks, then kept with the face.
+    [[nodiscard]] std::shared_ptr<const void> kept(const std::shared_ptr<const void>& owner,
+                                                   const std::function<std::shared_ptr<const void>()>& make) const;
 
 private:
     struct Parts;

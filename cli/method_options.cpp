@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "animation/sparse_method.h"
+#include "animation/model_method.h"
 #include "base/errors.h"
 #include "cli/command.h"
 #include "evaluation/score.h"
@@ -21,23 +21,23 @@ geometry::SplineKernel kernel_by_name(const std::string& name) {
 namespace {
 
 /// The methods whose models are files of control points: those that 'model', 'animate' and 'panels' take.
-std::vector<std::string> sparse_method_names() {
+std::vector<std::string> model_method_names() {
     std::vector<std::string> names;
     for (const auto& method : animation::known_methods())
         if (method->needs() == animation::SourceKind::one_source &&
-            dynamic_cast<const animation::SparseMethod*>(method.get()) != nullptr)
+            dynamic_cast<const animation::ModelMethod*>(method.get()) != nullptr)
             names.push_back(method->name());
     return names;
 }
 
-const animation::SparseMethod& sparse_method(const std::string& name) {
+const animation::ModelMethod& model_method(const std::string& name) {
     static const auto methods = animation::known_methods();
     for (const auto& method : methods)
-        if (const auto* sparse = dynamic_cast<const animation::SparseMethod*>(method.get());
+        if (const auto* sparse = dynamic_cast<const animation::ModelMethod*>(method.get());
             sparse && sparse->name() == name)
             return *sparse;
     throw InputError(
-        fmt::format("method '{}' has no control points; there are: {}", name, fmt::join(sparse_method_names(), ", ")));
+        fmt::format("method '{}' has no control points; there are: {}", name, fmt::join(model_method_names(), ", ")));
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::vector<std::string> method_names() {
 
 bool MethodArguments::has_control_points() const {
     const auto method = animation::method_by_name(name);
-    if (dynamic_cast<const animation::SparseMethod*>(method.get())) return true;
+    if (dynamic_cast<const animation::ModelMethod*>(method.get())) return true;
     if (!kernel.empty() || no_anchors)
         throw InputError(fmt::format("--method {} has no control points; leave --kernel and --no-anchors out", name));
     return false;
@@ -59,7 +59,7 @@ bool MethodArguments::has_control_points() const {
 
 void MethodArguments::add_to(CLI::App& command, Methods methods) {
     command.add_option("--method", name, "thesis (as printed), default (what measured best), or another")
-        ->check(CLI::IsMember(methods == Methods::all ? method_names() : sparse_method_names()))
+        ->check(CLI::IsMember(methods == Methods::all ? method_names() : model_method_names()))
         ->capture_default_str();
     command.add_option("--catalogue", catalogue_file, "Another FACS catalogue (TOML) than the built-in one");
     command
@@ -89,13 +89,13 @@ void apply_switches(const MethodArguments& arguments, Options& options, double& 
 }  // namespace
 
 modeling::ModelOptions MethodArguments::model_options() const {
-    auto options = sparse_method(name).model_options();
+    auto options = model_method(name).model_options();
     apply_switches(*this, options, options.smoothing);
     return options;
 }
 
 animation::AnimationOptions MethodArguments::animation_options() const {
-    auto options = sparse_method(name).animation_options();
+    auto options = model_method(name).animation_options();
     apply_switches(*this, options, options.landmark_smoothing);
     return options;
 }
@@ -111,7 +111,7 @@ modeling::ModelProvenance MethodArguments::provenance(const facs::FacsCatalogue&
 }
 
 std::string MethodArguments::variant_name() const {
-    auto variant = name + modeling::variant_suffix(model_options(), sparse_method(name).model_options());
+    auto variant = name + modeling::variant_suffix(model_options(), model_method(name).model_options());
     if (!catalogue_file.empty()) variant += "_catalogue-" + std::filesystem::path(catalogue_file).stem().string();
     return variant;
 }

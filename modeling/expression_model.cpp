@@ -18,6 +18,7 @@
 #include "geometry/surface_index.h"
 #include "io/json_values.h"
 #include "io/landmark_io.h"
+#include "modeling/template_motion_json.h"
 
 namespace mimik::modeling {
 
@@ -46,6 +47,8 @@ ModelOptions ModelOptions::thesis() {
 void ModelOptions::check() const {
     if (!(smoothing >= 0))
         throw InputError(fmt::format("smoothing is {}; give 0 (pass through every landmark) or more", smoothing));
+    if (correspondence == Correspondence::dense && normalisation == Normalisation::affine)
+        throw InputError("a dense model needs the frame 'similarity'; give that, or the correspondence 'sparse'");
 }
 
 double ExpressionModel::largest_displacement_mm() const {
@@ -123,6 +126,9 @@ ExpressionGauge::ExpressionGauge(const facs::FacsCatalogue& catalogue, const fac
         for (const auto& sided : units)
             if (crosses_border(sided, average.landmarks)) begun_.moves_upper_face = begun_.moves_lower_face = true;
     begun_.normalisation = options_.normalisation;
+    if (options_.correspondence == Correspondence::dense)
+        registration_ =
+            std::make_shared<const preprocessing::TemplateRegistration>(preprocessing::build_face_template(average));
     if (!options_.place_on_average) return;
     const geometry::SurfaceIndex surface(average.grid.vertices_mm, geometry::triangles(average.grid));
     on_average_ = place_controls(catalogue, expression, average.landmarks, surface, placed_kinds(options_));
@@ -200,6 +206,9 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     }
     for (const auto& anchor : placed.anchors)
         model.points.push_back({anchor.name, facs::ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
+    if (registration_)
+        model.dense = {registration_,
+                       registration_->motion(neutral, registration_->neutral(neutral), expressive).motion_mm};
     return model;
 }
 
@@ -212,6 +221,7 @@ ExpressionModel measure_expression(const facs::FacsCatalogue& catalogue, const f
 void ExpressionMean::add(const ExpressionModel& model) {
     if (!sum_) {
         sum_ = model;
+        models_ = 1;
         for (std::size_t k = 0; k < model.points.size(); ++k) place_[model.points[k].name] = k;
         count_.assign(model.points.size(), 1.0);
         return;
@@ -226,6 +236,14 @@ void ExpressionMean::add(const ExpressionModel& model) {
             throw InputError(
                 fmt::format("{}: models of {} and {} stand on different faces; model them on the average face",
                             sum.expression.name(), sum.sources.front(), model.sources.front()));
+    if (sum.dense.has_value() != model.dense.has_value() ||
+        (sum.dense && sum.dense->motion_mm.size() != model.dense->motion_mm.size()))
+        throw InputError(fmt::format("{}: models of {} and {} stand on different templates; model them anew",
+                                     sum.expression.name(), sum.sources.front(), model.sources.front()));
+    if (sum.dense)
+        for (std::size_t v = 0; v < sum.dense->motion_mm.size(); ++v)
+            sum.dense->motion_mm[v] += model.dense->motion_mm[v];
+    ++models_;
     sum.sources.insert(sum.sources.end(), model.sources.begin(), model.sources.end());
     for (const auto& reason : model.left_out)
         if (std::find(sum.left_out.begin(), sum.left_out.end(), reason) == sum.left_out.end())
@@ -252,6 +270,8 @@ ExpressionModel ExpressionMean::mean() const {
         mean.points[k].displacement_mm /= count_[k];
         mean.points[k].projection_mm /= count_[k];
     }
+    if (mean.dense)
+        for (auto& motion : mean.dense->motion_mm) motion /= static_cast<double>(models_);
     return mean;
 }
 
@@ -287,9 +307,12 @@ nlohmann::json provenance_to_json(const ModelProvenance& provenance) {
 ModelProvenance provenance_from_json(const nlohmann::json& json) {
     using io::read_field;
     ModelProvenance provenance;
+    // Older files know sparse models alone.
+    auto options = json;
+    if (!options.contains("correspondence")) options["correspondence"] = to_string(Correspondence::sparse);
     provenance.mimik_version = read_field<std::string>(json, "mimik");
     provenance.method = read_field<std::string>(json, "method");
-    io::read_fields(json, provenance.options);
+    io::read_fields(options, provenance.options);
     read_field(json, "catalogue", [&](const nlohmann::json& catalogue) {
         provenance.catalogue = read_field<std::string>(catalogue, "name");
         provenance.catalogue_hash = read_field<std::string>(catalogue, "hash");
@@ -353,6 +376,7 @@ std::string encode_expression_model(const ExpressionModel& model) {
                                {"points", points},
                                {"left_out", model.left_out},
                                {"unusable_scans", model.unusable_scans}};
+    if (model.dense) document["dense"] = template_motion_to_json(*model.dense);
     if (model.provenance) document["provenance"] = provenance_to_json(*model.provenance);
     return io::json_text(document);
 }
@@ -397,6 +421,7 @@ ExpressionModel decode_expression_model(std::string_view text, const std::string
         // Older files have neither.
         if (document.contains("unusable_scans"))
             model.unusable_scans = read_field<std::vector<std::string>>(document, "unusable_scans");
+        if (document.contains("dense")) model.dense = read_field(document, "dense", template_motion_from_json);
         if (document.contains("provenance"))
             model.provenance = read_field(document, "provenance", provenance_from_json);
         check_expression_model(model);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include "geometry/landmarks.h"
 #include "geometry/thin_plate_spline.h"
 #include "modeling/control_points.h"
+#include "modeling/template_motion.h"
 #include "preprocessing/average_face.h"
 #include "preprocessing/face.h"
 
@@ -29,7 +31,17 @@ enum class Normalisation {
 [[nodiscard]] const geometry::Transform& average_from_scan(const preprocessing::Face& face,
                                                            Normalisation normalisation);
 
+/// How a model says where the skin goes.
+enum class Correspondence {
+    sparse,  ///< control points alone; a spline between them (thesis)
+    dense    ///< every vertex of a template that is bent on to the scans, beside the control points
+};
+[[nodiscard]] constexpr const char* to_string(Correspondence correspondence) {
+    return correspondence == Correspondence::dense ? "dense" : "sparse";
+}
+
 struct ModelOptions {
+    Correspondence correspondence = Correspondence::sparse;
     Normalisation normalisation = Normalisation::similarity;
     geometry::SplineKernel kernel = geometry::SplineKernel::r;
     /// Of the landmark splines, unit of the kernel. Landmarks are marked to 0.5-1 mm only, and of 0, 10, 30 mm the last
@@ -43,6 +55,7 @@ struct ModelOptions {
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("correspondence", self.correspondence);
         visit("frame", self.normalisation);
         visit("kernel", self.kernel);
         visit("smoothing", self.smoothing);
@@ -96,6 +109,7 @@ struct ExpressionModel {
     std::vector<ModelPoint> points;             ///< controls, then anchors
     std::vector<std::string> left_out;          ///< points that could not be placed or measured, with the reason
     std::vector<std::string> unusable_scans;    ///< of a mean: scans that should have gone in and could not, and why
+    std::optional<TemplateMotion> dense;        ///< moves faces instead of the points, where there is one
     std::optional<ModelProvenance> provenance;  ///< of a stored one; older files have none
 
     [[nodiscard]] double largest_displacement_mm() const;
@@ -128,7 +142,8 @@ private:
     const preprocessing::AverageFace& average_;
     facs::Expression expression_;
     ModelOptions options_;
-    ExpressionModel begun_;      ///< what every model of this expression has
+    ExpressionModel begun_;  ///< what every model of this expression has
+    std::shared_ptr<const preprocessing::TemplateRegistration> registration_;  ///< of a dense model
     PlacedControls on_average_;  ///< empty if the controls are placed on each source itself
 };
 
@@ -150,6 +165,7 @@ private:
     std::optional<ExpressionModel> sum_;
     std::map<std::string, std::size_t> place_;  // of a point, by name
     std::vector<double> count_;                 // per point
+    std::size_t models_ = 0;
 };
 
 /// @throws InputError if it is none that can be animated: no point, a name twice, a width of 0, a number that is not

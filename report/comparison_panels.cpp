@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "animation/face_export.h"
-#include "animation/sparse_method.h"
+#include "animation/model_method.h"
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/file.h"
@@ -72,7 +72,7 @@ AnimatedFace animated_face(const PreparedTarget& target, const ExpressionModel& 
 /// A method that is no model of control points. Null: the request's own options make the motion.
 animation::MethodPointer field_method(const ComparisonRequest& request) {
     auto method = animation::method_by_name(request.method_name);
-    return dynamic_cast<const animation::SparseMethod*>(method.get()) ? nullptr : method;
+    return dynamic_cast<const animation::ModelMethod*>(method.get()) ? nullptr : method;
 }
 
 /// @throws InputError if the method does not learn from such a source.
@@ -240,7 +240,7 @@ private:
 /// What makes another picture of the same people by the same method, each in a word: "_r2logr_no-anchors_left_bridged".
 std::string variant_suffix(const ComparisonRequest& request) {
     const auto method = animation::method_by_name(request.method_name);
-    const auto* sparse = dynamic_cast<const animation::SparseMethod*>(method.get());
+    const auto* sparse = dynamic_cast<const animation::ModelMethod*>(method.get());
     auto suffix = modeling::variant_suffix(request.model, sparse ? sparse->model_options() : modeling::ModelOptions{});
     if (request.view != ComparisonRequest{}.view) suffix += "_" + request.view;
     if (request.bridged == geometry::BridgedVertices::keep) suffix += "_bridged";

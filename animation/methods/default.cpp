@@ -1,11 +1,11 @@
-#include "animation/sparse_method.h"
+#include "animation/model_method.h"
 
 namespace mimik::animation::methods {
 
 /// What measured best from one source: anchors that hold still, kernel r, points that cover the zone.
 MethodPointer default_method() {
-    return std::make_shared<SparseMethod>(
-        SparseMethod::Setting{.name = "default", .needs = SourceKind::one_source, .model = {}, .animation = {}});
+    return std::make_shared<ModelMethod>(
+        ModelMethod::Setting{.name = "default", .needs = SourceKind::one_source, .model = {}, .animation = {}});
 }
 
 }  // namespace mimik::animation::methods

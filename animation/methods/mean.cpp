@@ -1,11 +1,11 @@
-#include "animation/sparse_method.h"
+#include "animation/model_method.h"
 
 namespace mimik::animation::methods {
 
 /// The default, learned from the mean of all others on the average face (thesis 7.2, future work).
 MethodPointer mean_method() {
-    return std::make_shared<SparseMethod>(
-        SparseMethod::Setting{.name = "mean", .needs = SourceKind::all_but_target, .model = {}, .animation = {}});
+    return std::make_shared<ModelMethod>(
+        ModelMethod::Setting{.name = "mean", .needs = SourceKind::all_but_target, .model = {}, .animation = {}});
 }
 
 }  // namespace mimik::animation::methods

@@ -1,13 +1,13 @@
-#include "animation/sparse_method.h"
+#include "animation/model_method.h"
 
 namespace mimik::animation::methods {
 
 /// The thesis as printed: its own normalisation, r^2 ln r^2, no anchors, a hard cut between upper and lower face.
 MethodPointer thesis_method() {
-    return std::make_shared<SparseMethod>(SparseMethod::Setting{.name = "thesis",
-                                                                .needs = SourceKind::one_source,
-                                                                .model = modeling::ModelOptions::thesis(),
-                                                                .animation = AnimationOptions::thesis()});
+    return std::make_shared<ModelMethod>(ModelMethod::Setting{.name = "thesis",
+                                                              .needs = SourceKind::one_source,
+                                                              .model = modeling::ModelOptions::thesis(),
+                                                              .animation = AnimationOptions::thesis()});
 }
 
 }  // namespace mimik::animation::methods

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "animation/sparse_method.h"
+#include "animation/model_method.h"
 #include "base/errors.h"
 #include "tests/support/analytic_workspace.h"
 #include "tests/support/expressions.h"
@@ -28,11 +28,11 @@ TEST(Methods, have_names_of_their_own_that_can_be_typed) {
                 testing::IsSupersetOf({"nothing", "thesis", "default", "mean", "true-field", "true-field-mean"}));
 }
 
-TEST(SparseMethod, refuses_a_mean_of_points_that_stand_on_each_sources_own_face) {
-    EXPECT_THROW(SparseMethod({.name = "thesis-mean",
-                               .needs = SourceKind::all_but_target,
-                               .model = modeling::ModelOptions::thesis(),
-                               .animation = AnimationOptions::thesis()}),
+TEST(ModelMethod, refuses_a_mean_of_points_that_stand_on_each_sources_own_face) {
+    EXPECT_THROW(ModelMethod({.name = "thesis-mean",
+                              .needs = SourceKind::all_but_target,
+                              .model = modeling::ModelOptions::thesis(),
+                              .animation = AnimationOptions::thesis()}),
                  InputError);
 }
 

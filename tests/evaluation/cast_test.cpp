@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "animation/sparse_method.h"
+#include "animation/model_method.h"
 #include "base/errors.h"
 #include "base/file.h"
 #include "tests/database/temporary_folder.h"
@@ -99,13 +99,13 @@ TEST_F(CastTest, methods_that_take_the_same_lessons_share_them_and_what_is_not_h
 
 TEST_F(CastTest, methods_that_share_lessons_still_make_their_own_of_them) {
     const PerformanceReader reader(*workspace_);
-    animation::SparseMethod::Setting plain;
+    animation::ModelMethod::Setting plain;
     plain.name = "plain";
     auto thin_plate = plain;
     thin_plate.name = "thin-plate";
     thin_plate.animation.kernel = geometry::SplineKernel::r2_log_r2;
-    const std::vector<animation::MethodPointer> methods = {std::make_shared<animation::SparseMethod>(plain),
-                                                           std::make_shared<animation::SparseMethod>(thin_plate)};
+    const std::vector<animation::MethodPointer> methods = {std::make_shared<animation::ModelMethod>(plain),
+                                                           std::make_shared<animation::ModelMethod>(thin_plate)};
     FailureList failures;
     const auto expression = test::expression("12");
     const animation::LearningTask task{expression, workspace_->average(), facs::builtin_catalogue()};

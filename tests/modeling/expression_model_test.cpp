@@ -349,6 +349,39 @@ TEST_F(ExpressionModelTest, closed_lips_with_two_marks_on_one_place_are_measured
     EXPECT_GT(model.largest_displacement_mm(), 4.0);
 }
 
+TEST_F(ExpressionModelTest, a_dense_model_reads_back_to_the_last_bit_and_its_mean_is_the_mean) {
+    ModelOptions options;
+    options.correspondence = Correspondence::dense;
+    const auto first = measure(*source_, options);
+    ASSERT_TRUE(first.dense);
+    const auto again = decode_expression_model(encode_expression_model(first), "again");
+    ASSERT_TRUE(again.dense);
+    EXPECT_EQ(again.dense->motion_mm, first.dense->motion_mm);
+    const auto &made = first.dense->registration->face_template(), &read = again.dense->registration->face_template();
+    EXPECT_EQ(read.surface.vertices_mm, made.surface.vertices_mm);
+    EXPECT_EQ(read.surface.triangles, made.surface.triangles);
+    EXPECT_EQ(read.upper_lip_line, made.upper_lip_line);
+    EXPECT_EQ(read.lower_lip_line, made.lower_lip_line);
+    EXPECT_EQ(read.landmarks.size(), made.landmarks.size());
+
+    auto twice = first;
+    for (auto& motion : twice.dense->motion_mm) motion *= 3.0;
+    ExpressionMean mean;
+    mean.add(first);
+    mean.add(twice);
+    const auto middle = mean.mean();
+    for (std::size_t v = 0; v < made.size(); ++v)
+        EXPECT_LT((middle.dense->motion_mm[v] - 2.0 * first.dense->motion_mm[v]).norm(), 1e-12);
+    // Dense and sparse are no mean of one kind.
+    EXPECT_THROW(mean.add(measure(*source_)), InputError);
+}
+
+TEST(ModelOptions, a_dense_model_needs_a_frame_that_keeps_the_expression) {
+    auto options = ModelOptions::thesis();
+    options.correspondence = Correspondence::dense;
+    EXPECT_THROW(options.check(), InputError);
+}
+
 TEST(ModelOptions, defaults_and_the_thesis_are_valid_and_negative_smoothing_is_not) {
     EXPECT_NO_THROW(ModelOptions{}.check());
     EXPECT_NO_THROW(ModelOptions::thesis().check());

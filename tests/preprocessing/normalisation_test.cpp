@@ -7,6 +7,7 @@
 
 #include "base/errors.h"
 #include "preprocessing/preprocess_run.h"
+#include "preprocessing/template_registration.h"
 #include "tests/support/analytic_face.h"
 
 namespace mimik::preprocessing {

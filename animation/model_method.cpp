@@ -1,4 +1,4 @@
-#include "animation/sparse_method.h"
+#include "animation/model_method.h"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,13 @@ namespace {
 
 using modeling::ExpressionModel;
 
-class SparseLesson : public Lesson {
+class ModelLesson : public Lesson {
 public:
-    explicit SparseLesson(ExpressionModel model) : model_(std::move(model)) {}
+    explicit ModelLesson(ExpressionModel model) : model_(std::move(model)) {}
     [[nodiscard]] std::size_t bytes() const override {
         constexpr std::size_t name_bytes = 32;  // most names are too long to stand in the string itself
-        return model_.points.size() * (sizeof(modeling::ModelPoint) + name_bytes);
+        return model_.points.size() * (sizeof(modeling::ModelPoint) + name_bytes) +
+               (model_.dense ? model_.dense->motion_mm.size() * sizeof(geometry::Vector) : 0);
     }
     [[nodiscard]] const ExpressionModel& model() const { return model_; }
 
@@ -24,12 +25,12 @@ private:
 };
 
 const ExpressionModel& model_of(const LessonPointer& lesson) {
-    return dynamic_cast<const SparseLesson&>(*lesson).model();
+    return dynamic_cast<const ModelLesson&>(*lesson).model();
 }
 
-class SparseTransfer : public Transfer {
+class ModelTransfer : public Transfer {
 public:
-    SparseTransfer(LessonPointer lesson, const AnimationOptions& options)
+    ModelTransfer(LessonPointer lesson, const AnimationOptions& options)
         : lesson_(std::move(lesson)), options_(options) {}
     [[nodiscard]] geometry::DisplacementField on(const PreparedTarget& target) const override {
         const auto& model = model_of(lesson_);
@@ -46,31 +47,31 @@ private:
     AnimationOptions options_;
 };
 
-class SparseLearner : public Learner {
+class ModelLearner : public Learner {
 public:
-    SparseLearner(const LearningTask& task, const SparseMethod::Setting& setting)
+    ModelLearner(const LearningTask& task, const ModelMethod::Setting& setting)
         : setting_(setting), gauge_(task.catalogue, task.expression, task.average, setting.model) {}
 
     [[nodiscard]] LessonPointer study(const modeling::Performance& performance) const override {
-        return std::make_shared<const SparseLesson>(gauge_.measure(performance.neutral, performance.expressive));
+        return std::make_shared<const ModelLesson>(gauge_.measure(performance.neutral, performance.expressive));
     }
 
     [[nodiscard]] std::unique_ptr<const Transfer> learn(std::span<const LessonPointer> lessons) const override {
         if (setting_.needs == SourceKind::one_source && lessons.size() == 1)
-            return std::make_unique<SparseTransfer>(lessons.front(), setting_.animation);
+            return std::make_unique<ModelTransfer>(lessons.front(), setting_.animation);
         modeling::ExpressionMean mean;
         for (const auto& lesson : lessons) mean.add(model_of(lesson));
-        return std::make_unique<SparseTransfer>(std::make_shared<const SparseLesson>(mean.mean()), setting_.animation);
+        return std::make_unique<ModelTransfer>(std::make_shared<const ModelLesson>(mean.mean()), setting_.animation);
     }
 
 private:
-    SparseMethod::Setting setting_;
+    ModelMethod::Setting setting_;
     modeling::ExpressionGauge gauge_;
 };
 
 }  // namespace
 
-SparseMethod::SparseMethod(Setting setting) : setting_(std::move(setting)) {
+ModelMethod::ModelMethod(Setting setting) : setting_(std::move(setting)) {
     setting_.model.check();
     setting_.animation.check();
     if (setting_.needs == SourceKind::all_but_target && !setting_.model.place_on_average)
@@ -78,10 +79,10 @@ SparseMethod::SparseMethod(Setting setting) : setting_(std::move(setting)) {
             fmt::format("method '{}': a mean needs its points on the average face (place_on_average)", setting_.name));
 }
 
-std::string SparseMethod::lessons_key() const { return "sparse" + base::field_text(setting_.model); }
+std::string ModelMethod::lessons_key() const { return "model" + base::field_text(setting_.model); }
 
-std::unique_ptr<const Learner> SparseMethod::learner(const LearningTask& task) const {
-    return std::make_unique<SparseLearner>(task, setting_);
+std::unique_ptr<const Learner> ModelMethod::learner(const LearningTask& task) const {
+    return std::make_unique<ModelLearner>(task, setting_);
 }
 
 }  // namespace mimik::animation

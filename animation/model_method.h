@@ -9,7 +9,7 @@
 namespace mimik::animation {
 
 /// Control points and thin-plate splines: the thesis's way, and what grew out of it. The options say which.
-class SparseMethod : public Method {
+class ModelMethod : public Method {
 public:
     struct Setting {
         std::string name;
@@ -18,7 +18,7 @@ public:
         AnimationOptions animation;
     };
     /// @throws InputError for bad options, or a mean whose points do not stand on the average face.
-    explicit SparseMethod(Setting setting);
+    explicit ModelMethod(Setting setting);
 
     [[nodiscard]] std::string name() const override { return setting_.name; }
     [[nodiscard]] SourceKind needs() const override { return setting_.needs; }

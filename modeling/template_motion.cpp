@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "io/json_values.h"
+#include "modeling/template_motion_json.h"
+
+namespace mimik::modeling {
+
+using geometry::Triangle;
+using geometry::Vector;
+using nlohmann::json;
+using preprocessing::BoundLandmark;
+using preprocessing::FaceTemplate;
+
+namespace {
+
+constexpr std::size_t most_vertices = 200'000;  // a template has some thousands
+
+json to_json(const std::vector<Vector>& vectors) {
+    auto list = json::array();
+    for (const auto& vector : vectors) list.push_back(io::to_json(vector));
+    return list;
+}
+
+std::vector<Vector> vectors_from_json(const json& document, const char* key) {
+    std::vector<Vector> vectors;
+    io::read_list(document, key, [&](const json& value) {
+        if (vectors.size() == most_vertices)
+            throw InputError(fmt::format("more than the {} vertices that are read", most_vertices));
+        vectors.push_back(io::vector_from_json(value));
+        if (!vectors.back().allFinite()) throw InputError("it is not finite");
+    });
+    return vectors;
+}
+
+Triangle triangle_from_json(const json& value, std::size_t vertices) {
+    if (!value.is_array() || value.size() != 3) throw InputError(io::shown(value) + " is no list of three vertices");
+    Triangle triangle;
+    for (std::size_t k = 0; k < 3; ++k)
+        triangle[k] = static_cast<std::uint32_t>(io::whole_number_below(vertices, value[k], "a corner"));
+    return triangle;
+}
+
+std::vector<std::uint32_t> line_from_json(const json& document, const char* key, std::size_t vertices) {
+    std::vector<std::uint32_t> line;
+    io::read_list(document, key, [&](const json& value) {
+        line.push_back(static_cast<std::uint32_t>(io::whole_number_below(vertices, value, "a vertex")));
+    });
+    return line;
+}
+
+FaceTemplate template_from_json(const json& document) {
+    FaceTemplate made;
+    auto& surface = made.surface;
+    surface.vertices_mm = vectors_from_json(document, "vertices_mm");
+    const auto size = surface.size();
+    io::read_list(document, "triangles",
+                  [&](const json& value) { surface.triangles.push_back(triangle_from_json(value, size)); });
+    if (surface.triangles.empty()) throw InputError("there is no triangle in it");
+    surface.present.assign(size, 1);
+    surface.measured.assign(size, 1);
+    surface.landmarks = io::landmarks_from_json(document, "landmarks");
+    made.mirror = line_from_json(document, "mirror", size);
+    if (made.mirror.size() != size)
+        throw InputError(fmt::format("mirror has {} vertices, the template {}", made.mirror.size(), size));
+    made.upper_lip_line = line_from_json(document, "upper_lip_line", size);
+    made.lower_lip_line = line_from_json(document, "lower_lip_line", size);
+    io::read_list(document, "bound_landmarks", [&](const json& value) {
+        made.landmarks.push_back(
+            {io::read_field<std::string>(value, "name"),
+             io::read_field(value, "corners", [&](const json& corners) { return triangle_from_json(corners, size); }),
+             io::read_field(value, "weights", io::vector_from_json)});
+    });
+    return made;
+}
+
+}  // namespace
+
+json template_motion_to_json(const TemplateMotion& dense) {
+    const auto& made = dense.registration->face_template();
+    auto triangles = json::array(), bound = json::array();
+    for (const auto& triangle : made.surface.triangles) triangles.push_back(triangle);
+    for (const auto& mark : made.landmarks)
+        bound.push_back(
+            {{"name", mark.name}, {"corners", mark.corners}, {"weights", io::to_json(Vector(mark.weights))}});
+    return {{"template",
+             {{"vertices_mm", to_json(made.surface.vertices_mm)},
+              {"triangles", triangles},
+              {"landmarks", io::to_json(made.surface.landmarks)},
+              {"mirror", made.mirror},
+              {"upper_lip_line", made.upper_lip_line},
+              {"lower_lip_line", made.lower_lip_line},
+              {"bound_landmarks", bound}}},
+            {"motion_mm", to_json(dense.motion_mm)}};
+}
+
+TemplateMotion template_motion_from_json(const json& document) {
+    TemplateMotion dense;
+    auto made = io::read_field(document, "template", template_from_json);
+    dense.motion_mm = vectors_from_json(document, "motion_mm");
+    if (dense.motion_mm.size() != made.size())
+        throw InputError(
+            fmt::format("motion_mm has {} vectors, the template {} vertices", dense.motion_mm.size(), made.size()));
+    dense.registration = std::make_shared<const preprocessing::TemplateRegistration>(std::move(made));
+    return dense;
+}
+
+}  // namespace mimik::modeling

@@ -1,0 +1,197 @@
+#include "preprocessing/template_registration.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "geometry/landmark_spline.h"
+#include "geometry/point_index.h"
+
+namespace mimik::preprocessing {
+
+using geometry::Point;
+using geometry::Vector;
+
+void TemplateRegistrationOptions::check() const {
+    neutral.check();
+    expressive.check();
+    if (!(landmark_smoothing >= 0))
+        throw InputError(fmt::format("landmark_smoothing is {}; give 0 or more", landmark_smoothing));
+    for (const double length : {still_around_mm, still_within_mm, still_off_marks_mm, still_spacing_mm})
+        if (!(length > 0)) throw InputError(fmt::format("a length of stillness is {}; give more than 0", length));
+    if (!(still_motion_mm >= 0))
+        throw InputError(fmt::format("still_motion_mm is {}; give 0 or more", still_motion_mm));
+}
+
+namespace {
+
+/// What was measured of a face, in the average frame of its subject.
+FitTarget measured_surface(const Face& face) {
+    std::vector<Point> vertices;
+    vertices.reserve(face.grid.size());
+    for (std::size_t v = 0; v < face.grid.size(); ++v)
+        vertices.push_back(face.grid.inside(v) ? Point(face.average_from_scan * face.grid.vertices_mm[v])
+                                               : Point(Point::Zero()));
+    return {vertices, geometry::triangles(face.grid, geometry::BridgedVertices::leave_out)};
+}
+
+geometry::Landmarks in_average_frame(const Face& face) {
+    return geometry::transformed(face.landmarks, face.average_from_scan);
+}
+
+}  // namespace
+
+TemplateRegistration::TemplateRegistration(FaceTemplate face_template, const TemplateRegistrationOptions& options)
+    : template_(std::move(face_template)),
+      options_(options),
+      lip_shares_(lip_shares(template_)),
+      lip_rims_(template_.size(), 0),
+      fitter_(template_.surface.vertices_mm, template_.surface.triangles) {
+    options_.check();
+    for (const auto* line : {&template_.upper_lip_line, &template_.lower_lip_line})
+        for (const auto v : *line) lip_rims_[v] = 1;
+}
+
+namespace {
+
+geometry::Landmarks without(const geometry::Landmarks& landmarks, std::span<const std::string_view> names) {
+    std::vector<geometry::Landmark> kept;
+    for (const auto& mark : landmarks.all())
+        if (std::find(names.begin(), names.end(), mark.name) == names.end()) kept.push_back(mark);
+    return geometry::Landmarks(std::move(kept));
+}
+
+}  // namespace
+
+/// By the spline through landmarks and what holds still; near the cut each lip goes by a spline that knows nothing of
+/// the other, since one spline has no cut.
+std::vector<Point> TemplateRegistration::start(const geometry::Landmarks& from, const geometry::Landmarks& to,
+                                               std::span<const Point> still_mm,
+                                               std::span<const Point> vertices_mm) const {
+    constexpr std::array<std::string_view, 2> upper_lip = {"upper_lip_inner", "upper_lip_outer"};
+    constexpr std::array<std::string_view, 2> lower_lip = {"lower_lip_inner", "lower_lip_outer"};
+    const auto carried = [&](std::span<const std::string_view> left_out) {
+        geometry::LandmarkPairs pairs(without(from, left_out), without(to, left_out));
+        for (std::size_t k = 0; k < still_mm.size(); ++k)
+            pairs.add(fmt::format("still_{}", k), still_mm[k], still_mm[k]);
+        return pairs.fit({.smoothing = options_.landmark_smoothing}).apply(vertices_mm);
+    };
+    auto start = carried({});
+    const auto of_upper = carried(lower_lip), of_lower = carried(upper_lip);
+    for (std::size_t v = 0; v < start.size(); ++v) {
+        const double share = lip_shares_[v];
+        start[v] += std::abs(share) * ((share > 0 ? of_upper : of_lower)[v] - start[v]);
+    }
+    return start;
+}
+
+std::vector<FitMark> TemplateRegistration::marks(const geometry::Landmarks& landmarks) const {
+    std::vector<FitMark> marks;
+    for (const auto& bound : template_.landmarks)
+        if (const auto* mark = landmarks.find(bound.name))
+            marks.push_back({bound.corners, bound.weights, mark->position_mm, 1.0});
+    return marks;
+}
+
+RegisteredTemplate TemplateRegistration::neutral(const Face& face) const {
+    return neutral(measured_surface(face), in_average_frame(face));
+}
+
+RegisteredTemplate TemplateRegistration::neutral(const FitTarget& surface, const geometry::Landmarks& landmarks) const {
+    const auto begin = start(template_.surface.landmarks, landmarks, {}, template_.surface.vertices_mm);
+    auto fit = fitter_.fit(begin, surface, marks(landmarks), options_.neutral, {.on_rim = lip_rims_});
+    return {std::move(fit.vertices_mm), std::move(fit.matched), fit.matched_share, fit.residual_rms_mm};
+}
+
+namespace {
+
+constexpr double moved_mark_mm = 1.0;  // above what marking errs by
+
+/// Vertices of the neutral template that the expression demonstrably leaves where they are.
+std::vector<Point> still_points(std::span<const Point> vertices_mm, std::span<const geometry::Triangle> triangles,
+                                const FitTarget& surface, std::span<const geometry::LandmarkPair> marks,
+                                const TemplateRegistrationOptions& options) {
+    constexpr double least_cosine = 0.97;
+    const auto normals = geometry::vertex_normals(vertices_mm, triangles);
+    const auto hits = surface.surface().closest(vertices_mm);
+    geometry::VertexMask unmoved(vertices_mm.size(), 0);
+    for (std::size_t v = 0; v < unmoved.size(); ++v)
+        unmoved[v] = hits[v].distance_mm < options.still_within_mm && !surface.surface().on_border(hits[v]) &&
+                     normals[v].dot(surface.normal(hits[v])) > least_cosine;
+    const geometry::PointIndex index(vertices_mm);
+    std::vector<Point> still;
+    for (std::size_t v = 0; v < unmoved.size(); ++v) {
+        if (!unmoved[v]) continue;
+        const Point& p = vertices_mm[v];
+        const auto near = [&](const Point& q, double mm) { return (p - q).squaredNorm() < mm * mm; };
+        bool holds = true, doubtful = false;
+        for (const auto& mark : marks)
+            doubtful = doubtful || ((mark.target_mm - mark.source_mm).norm() > moved_mark_mm &&
+                                    near(mark.source_mm, options.still_doubt_mm));
+        for (const auto& other : still) holds = holds && !near(other, options.still_spacing_mm);
+        for (const auto& mark : marks)
+            holds = holds && !((mark.target_mm - mark.source_mm).norm() > moved_mark_mm &&
+                               near(mark.source_mm, options.still_off_marks_mm));
+        if (!holds) continue;
+        if (!holds) continue;
+        Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+        const auto around = index.within(p, options.still_around_mm);
+        for (const auto& neighbour : around) {
+            holds = holds && unmoved[neighbour.index];
+            spread += normals[neighbour.index] * normals[neighbour.index].transpose();
+        }
+        // A plane or a cylinder that slides along itself looks as if it held still.
+        if (holds && doubtful)
+            holds = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread / static_cast<double>(around.size()),
+                                                                   Eigen::EigenvaluesOnly)
+                        .eigenvalues()[0] > options.still_relief;
+        if (holds) still.push_back(p);
+    }
+    return still;
+}
+
+/// Skin slides less the farther it is from a landmark that moved; where it is smooth, no scan shows that.
+std::vector<double> stillness(std::span<const Point> vertices_mm, std::span<const geometry::LandmarkPair> marks,
+                              const TemplateRegistrationOptions& options) {
+    std::vector<double> weights;
+    for (const auto& p : vertices_mm) {
+        double nearest = 1e9;
+        for (const auto& mark : marks)
+            if ((mark.target_mm - mark.source_mm).norm() > moved_mark_mm)
+                nearest = std::min(nearest, (p - mark.source_mm).norm());
+        const double t =
+            std::clamp((nearest - options.far_from_mm) / (options.far_to_mm - options.far_from_mm), 0.0, 1.0);
+        weights.push_back(1.0 + (options.far_stillness - 1.0) * t * t * (3 - 2 * t));
+    }
+    return weights;
+}
+
+}  // namespace
+
+RegisteredMotion TemplateRegistration::motion(const Face& neutral, const RegisteredTemplate& registered,
+                                              const Face& expressive) const {
+    const auto surface = measured_surface(expressive);
+    const auto neutral_marks = in_average_frame(neutral), expressive_marks = in_average_frame(expressive);
+    const auto marked = geometry::pair_by_name(neutral_marks, expressive_marks).pairs;
+    const auto still = still_points(registered.vertices_mm, template_.surface.triangles, surface, marked, options_);
+    const auto begin = start(neutral_marks, expressive_marks, still, registered.vertices_mm);
+    const auto holding = stillness(registered.vertices_mm, marked, options_);
+    const auto fit = fitter_.fit(begin, surface, marks(expressive_marks), options_.expressive,
+                                 {.rest_mm = registered.vertices_mm, .stillness = holding, .on_rim = lip_rims_});
+
+    RegisteredMotion motion{{}, std::move(fit.matched), still.size(), fit.matched_share, fit.residual_rms_mm};
+    const double noise2 = options_.still_motion_mm * options_.still_motion_mm;
+    for (std::size_t v = 0; v < registered.vertices_mm.size(); ++v) {
+        const Vector way = fit.vertices_mm[v] - registered.vertices_mm[v];
+        const double way2 = way.squaredNorm();
+        motion.motion_mm.emplace_back(way2 > 0 ? Vector(way * (way2 / (way2 + noise2))) : way);
+    }
+    return motion;
+}
+
+}  // namespace mimik::preprocessing
