@@ -13,6 +13,7 @@
 #include "animation/face_export.h"
 #include "base/errors.h"
 #include "base/output_folder.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
@@ -24,6 +25,9 @@
 #include "database/hidden_subjects.h"
 #include "database/known_databases.h"
 #include "io/json_values.h"
+#include "io/landmark_io.h"
+#include "io/mesh_io.h"
+#include "io/warp_file.h"
 #include "modeling/region_labels.h"
 #include "modeling/source_expression.h"
 
@@ -34,6 +38,7 @@ struct Arguments {
     Common common;
     MethodArguments method;
     std::string workspace, source = "mean", target, output, frame = "scanner", combine = "sum";
+    std::filesystem::path mesh, landmarks;  ///< animated in the place of a target of the workspace
     std::vector<std::string> action_units, model_files, hold;
     std::string regions;
     bool keep_bridged = false, arkit_names = false;
@@ -135,9 +140,9 @@ std::string source_words(const Arguments& arguments) {
     return arguments.model_files.empty() ? arguments.source : arguments.source + " and model files";
 }
 
-/// What a mesh says of how it was made.
-io::MadeBy made_by(const Arguments& arguments, const preprocessing::Workspace& workspace,
-                   const preprocessing::Face& neutral, const Chosen& chosen) {
+/// What a mesh says of how it was made. @param subject  of the target; empty: none of the workspace
+io::MadeBy made_by(const Arguments& arguments, const preprocessing::Workspace& workspace, const std::string& target,
+                   const std::string& subject, const Chosen& chosen) {
     std::vector<std::string> expressions;
     std::set<std::string> scans;
     for (std::size_t k = 0; k < chosen.models.size(); ++k) {
@@ -147,12 +152,13 @@ io::MadeBy made_by(const Arguments& arguments, const preprocessing::Workspace& w
     constexpr std::size_t most_named = 8;  // a mean has hundreds
     const auto named =
         scans.size() > most_named ? fmt::format("{} scans", scans.size()) : fmt::format("{}", fmt::join(scans, " "));
-    std::set<std::string> subjects = {neutral.id.subject};
+    std::set<std::string> subjects;
+    if (!subject.empty()) subjects.insert(subject);
     for (const auto& name : scans)
         if (const auto scan = database::parse_scan_name(name)) subjects.insert(scan->subject);
     return {{"made_by", fmt::format("Mimik {} animate", base::version())},
             {"source", fmt::format("{} ({})", source_words(arguments), named)},
-            {"target", neutral.id.name()},
+            {"target", target},
             {"expressions", fmt::format("{}", fmt::join(expressions, ", "))},
             {"combined_by", arguments.combine},
             {"method", arguments.method.variant_name()},
@@ -162,7 +168,7 @@ io::MadeBy made_by(const Arguments& arguments, const preprocessing::Workspace& w
             {"database", database::remember_database(workspace.database_root())}};
 }
 
-void print_json(const Arguments& arguments, const preprocessing::Face& neutral, const Chosen& chosen,
+void print_json(const Arguments& arguments, const std::string& target, const Chosen& chosen,
                 const geometry::FieldExtent& extent) {
     auto list = nlohmann::json::array();
     for (std::size_t k = 0; k < chosen.models.size(); ++k)
@@ -172,7 +178,7 @@ void print_json(const Arguments& arguments, const preprocessing::Face& neutral, 
                         {"points", chosen.models[k].points.size()},
                         {"largest_displacement_mm", chosen.models[k].largest_displacement_mm()}});
     nlohmann::json document = {{"schema", 1},
-                               {"target", neutral.id.name()},
+                               {"target", target},
                                {"source", source_words(arguments)},
                                {"method", arguments.method.name},
                                {"frame", arguments.frame},
@@ -188,21 +194,27 @@ void print_json(const Arguments& arguments, const preprocessing::Face& neutral, 
     std::cout << io::json_text(document);
 }
 
-int run(Arguments& arguments) {
-    const preprocessing::Workspace workspace(arguments.workspace);
-    for (auto* subject : {&arguments.source, &arguments.target}) {
-        *subject = subject_named(workspace, *subject);
-        workspace.refuse_hidden(*subject);
+/// What is said at the end, and the exit code.
+int report(const Arguments& arguments, const std::string& target, Chosen& chosen, const geometry::FieldExtent& extent) {
+    for (const auto& model : chosen.models)
+        for (const auto& reason : model.left_out)
+            chosen.remarks.push_back(fmt::format("{}: {}", model.expression.name(), reason));
+    if (arguments.common.json) {
+        print_json(arguments, target, chosen, extent);
+    } else {
+        if (!arguments.common.quiet) say_notes(chosen.remarks);
+        std::vector<std::string> asked = arguments.action_units;
+        asked.insert(asked.end(), arguments.model_files.begin(), arguments.model_files.end());
+        std::cout << fmt::format("{}: {} from {} on {}, up to {:.1f} mm\n", arguments.output, fmt::join(asked, " + "),
+                                 source_words(arguments), target, extent.largest_displacement_mm);
     }
-    const auto catalogue = arguments.method.catalogue();
-    const auto model_options = arguments.method.model_options();
-    if (arguments.action_units.empty() && arguments.model_files.empty())
-        throw InputError("there is nothing to animate; give --au, such as 12, or --model, a file of 'mimik model'");
-    if (!arguments.action_units.empty())
-        modeling::check_source(workspace, {arguments.source, {arguments.target}}, model_options);
+    say_failures(chosen.failures);
+    return chosen.failures.empty() ? exit_done : exit_done_with_failures;
+}
 
+/// A face of the workspace.
+int animate_scan(const Arguments& arguments, const preprocessing::Workspace& workspace, Chosen& chosen) {
     const auto neutral = workspace.face(workspace.neutral(arguments.target));
-    auto chosen = choose(arguments, workspace, catalogue);
     const animation::PreparedTarget target(neutral);
     const auto animated =
         animation::animate(target, chosen.weighted(), animation_options(arguments, workspace, neutral));
@@ -214,30 +226,81 @@ int run(Arguments& arguments) {
         arguments.keep_bridged ? geometry::BridgedVertices::keep : geometry::BridgedVertices::leave_out;
     auto extent = animated.extent;
     if (arguments.frame == "average") {
-        export_options.average_from_scan = modeling::average_from_scan(neutral, model_options.normalisation);
+        export_options.average_from_scan =
+            modeling::average_from_scan(neutral, arguments.method.model_options().normalisation);
         extent =
             geometry::field_extent(target.surface(), animated.field.mm, export_options.average_from_scan->linear());
     }
     const auto texture = texture_of(neutral, remarks);
-    export_options.made_by = made_by(arguments, workspace, neutral, chosen);
+    export_options.made_by = made_by(arguments, workspace, neutral.id.name(), neutral.id.subject, chosen);
     for (auto& remark : animation::write_animated_face(base::where_links_lead(arguments.output), animated, neutral,
                                                        chosen.names, texture, export_options))
         remarks.push_back(std::move(remark));
-    for (const auto& model : chosen.models)
-        for (const auto& reason : model.left_out)
-            remarks.push_back(fmt::format("{}: {}", model.expression.name(), reason));
+    return report(arguments, neutral.id.name(), chosen, extent);
+}
 
-    if (arguments.common.json) {
-        print_json(arguments, neutral, chosen, extent);
-    } else {
-        if (!arguments.common.quiet) say_notes(remarks);
-        std::vector<std::string> asked = arguments.action_units;
-        asked.insert(asked.end(), arguments.model_files.begin(), arguments.model_files.end());
-        std::cout << fmt::format("{}: {} from {} on {}, up to {:.1f} mm\n", arguments.output, fmt::join(asked, " + "),
-                                 source_words(arguments), neutral.id.name(), extent.largest_displacement_mm);
+std::size_t torn_faces(const geometry::Mesh& mesh, const animation::AnimatedFace& animated) {
+    std::size_t torn = 0;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        torn += animation::torn_lips(animated.lip_sides, animated.field.mm, mesh.faces[f]) ? 1 : 0;
+    return torn;
+}
+
+/// Anybody's mesh: its own vertices, faces, texture coordinates and attributes, moved.
+int animate_own_mesh(const Arguments& arguments, const preprocessing::Workspace& workspace, Chosen& chosen) {
+    for (const auto& file : {arguments.mesh, arguments.landmarks}) database::refuse_hidden_file(file);
+    refuse_range_scan(arguments.mesh);
+    auto file = io::read_mesh_file(arguments.mesh);
+    const auto landmarks = io::read_landmarks(arguments.landmarks, file.mesh.vertices_mm);
+    animation::AnimatedFace animated;
+    file.mesh = naming_any({arguments.mesh, arguments.landmarks}, [&] {
+        return animation::animate_mesh(file.mesh, landmarks, workspace.average(), chosen.weighted(),
+                                       arguments.method.animation_options(), &animated);
+    });
+    auto& remarks = chosen.remarks;
+    remarks.insert(remarks.end(), animated.remarks.begin(), animated.remarks.end());
+    if (const auto torn = torn_faces(file.mesh, animated); torn > 0)
+        remarks.push_back(fmt::format("{} of {} join lips that part, and are stretched: cut the mesh along its lips",
+                                      base::counted(torn, "face"), arguments.mesh.string()));
+    const auto output = base::where_links_lead(arguments.output);
+    io::MeshWriteOptions options;
+    options.made_by = made_by(arguments, workspace, arguments.mesh.filename().string(), "", chosen);
+    options.frame = file.frame;
+    if (!file.texture_error.empty()) remarks.push_back(file.texture_error);
+    io::copy_textures(
+        file, arguments.mesh, output, [](const std::filesystem::path& image) { database::refuse_hidden_file(image); },
+        options, remarks);
+    for (auto& remark : io::write_mesh(output, file.mesh, options)) remarks.push_back(std::move(remark));
+    return report(arguments, arguments.mesh.string(), chosen, animated.extent);
+}
+
+/// Either a subject of the workspace or a mesh with its landmarks.
+void check_target(const Arguments& arguments) {
+    if (arguments.target.empty() == arguments.mesh.empty())
+        throw InputError("give a face to animate: --target, a subject of the workspace, or --mesh and --landmarks");
+    if (!arguments.mesh.empty() &&
+        (!arguments.hold.empty() || arguments.keep_bridged || arguments.arkit_names || arguments.frame != "scanner"))
+        throw InputError(
+            "--hold, --keep-bridged, --arkit-names and --frame are for faces of the workspace; leave them "
+            "out with --mesh");
+}
+
+int run(Arguments& arguments) {
+    check_target(arguments);
+    const preprocessing::Workspace workspace(arguments.workspace);
+    for (auto* subject : {&arguments.source, &arguments.target}) {
+        if (subject->empty()) continue;
+        *subject = subject_named(workspace, *subject);
+        workspace.refuse_hidden(*subject);
     }
-    say_failures(chosen.failures);
-    return chosen.failures.empty() ? exit_done : exit_done_with_failures;
+    const auto catalogue = arguments.method.catalogue();
+    if (arguments.action_units.empty() && arguments.model_files.empty())
+        throw InputError("there is nothing to animate; give --au, such as 12, or --model, a file of 'mimik model'");
+    if (!arguments.action_units.empty())
+        modeling::check_source(workspace, {arguments.source, {arguments.target}}, arguments.method.model_options());
+    auto chosen = choose(arguments, workspace, catalogue);
+    return arguments.mesh.empty() ? animate_scan(arguments, workspace, chosen)
+                                  : animate_own_mesh(arguments, workspace, chosen);
 }
 
 }  // namespace
@@ -250,7 +313,9 @@ void add_animate_command(CLI::App& app, int& exit_code) {
         ->add_option("--source", arguments->source,
                      "Subject whose expression is taken, or mean (of all but the target)")
         ->capture_default_str();
-    command->add_option("--target", arguments->target, "Subject whose first neutral face is animated")->required();
+    command->add_option("--target", arguments->target, "Subject whose first neutral face is animated");
+    auto* landmarks = command->add_option("--landmarks", arguments->landmarks, "On the --mesh, by Mimik's names");
+    command->add_option("--mesh", arguments->mesh, "Or a mesh of your own that is animated as it is")->needs(landmarks);
     command
         ->add_option("--au,--expression", arguments->action_units,
                      "AU or emotion, side and magnitude: 12, 12:0.5, AU4_L, HAPPY:0.8; repeat or 4,12")

@@ -79,7 +79,8 @@ std::string checked_image(const std::filesystem::path& image, const std::filesys
     return content;
 }
 
-/// The images become ones that belong to the output, so that no other of their names is taken for them.
+}  // namespace
+
 void copy_textures(MeshFile& file, const std::filesystem::path& input, const std::filesystem::path& output,
                    const CheckTexture& check_texture, MeshWriteOptions& options, std::vector<std::string>& remarks) {
     const auto folder = input.parent_path();
@@ -109,6 +110,8 @@ void copy_textures(MeshFile& file, const std::filesystem::path& input, const std
     for (auto& picture : options.face_textures)
         if (picture != no_picture) picture = new_number[picture];
 }
+
+namespace {
 
 void write_output(const std::filesystem::path& output, WarpInput warp, const std::filesystem::path& input,
                   const CheckTexture& check_texture, MeshWriteOptions options, std::vector<std::string>& remarks) {

@@ -62,4 +62,11 @@ WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::p
                      const std::function<void(const std::filesystem::path&)>& check_texture = {},
                      const WarpFileOptions& more = {});
 
+/// Copies the images that a mesh names beside an output face.ply or face.obj, as face_texture.<ext>,
+/// face_texture_2.<ext>, ..., so that no other of their names is taken for them, and lets `options` name the copies.
+/// What cannot be handed on is told in `remarks`. @param check_texture  as of warp_file
+void copy_textures(MeshFile& file, const std::filesystem::path& input, const std::filesystem::path& output,
+                   const std::function<void(const std::filesystem::path&)>& check_texture, MeshWriteOptions& options,
+                   std::vector<std::string>& remarks);
+
 }  // namespace mimik::io
