@@ -34,7 +34,7 @@ struct Arguments {
     Common common;
     std::string database, output, catalogue_file, unit = "mm";
     std::vector<std::string> expressions;
-    bool dry_run = false, sheets = false;
+    bool dry_run = false, sheets = false, keep_all = false;
     preprocessing::PreprocessOptions options;
 };
 
@@ -145,6 +145,7 @@ int run(Arguments& arguments) {
     refuse_workspace(arguments.database);
     check_size("--rows", arguments.options.steps.gridding.rows);
     check_size("--cols", arguments.options.steps.gridding.cols);
+    arguments.options.steps.crop.crop = !arguments.keep_all;
     arguments.options.expressions = parsed_expressions(arguments.expressions);
     const auto database = database::open_database(arguments.database, io::parse_length_unit(arguments.unit));
     if (!arguments.dry_run) database::remember_database(database.root);
@@ -251,6 +252,8 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--min-part", options.steps.cleaning.min_part, "Smaller parts are stray, share of the largest")
         ->capture_default_str();
+    command->add_flag("--keep-all", arguments->keep_all,
+                      "Keep neck, ears, hair and shoulders: without it a scan is cropped to the face by its landmarks");
     command->add_option("--trim", options.alignment.trim, "Share of the points that the alignment uses")
         ->capture_default_str();
     command->add_option("--catalogue", arguments->catalogue_file,

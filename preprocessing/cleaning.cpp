@@ -9,6 +9,7 @@
 
 #include "base/errors.h"
 #include "geometry/disjoint_sets.h"
+#include "geometry/leave_out_points.h"
 #include "geometry/spikes.h"
 
 namespace mimik::preprocessing {
@@ -95,35 +96,6 @@ private:
     std::size_t face_size_ = 0;
 };
 
-/// A lattice keeps its places; a cloud or mesh loses the points, and the faces that used them.
-RangeScan without(const RangeScan& scan, const geometry::VertexMask& dropped) {
-    RangeScan cleaned = scan;
-    const std::size_t n = scan.points_mm.size();
-    const Point nothing = Point::Constant(std::numeric_limits<double>::quiet_NaN());
-    if (scan.organised()) {
-        for (std::size_t i = 0; i < n; ++i)
-            if (dropped[i]) cleaned.points_mm[i] = nothing;
-        return cleaned;
-    }
-    cleaned.points_mm.clear();
-    cleaned.texture_coordinates.clear();
-    cleaned.faces = {};
-    constexpr auto nowhere = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> place(n, nowhere);
-    for (std::size_t i = 0; i < n; ++i)
-        if (!dropped[i] && scan.valid(i)) {
-            place[i] = static_cast<std::uint32_t>(cleaned.points_mm.size());
-            cleaned.points_mm.push_back(scan.points_mm[i]);
-            if (!scan.texture_coordinates.empty()) cleaned.texture_coordinates.push_back(scan.texture_coordinates[i]);
-        }
-    for (std::size_t f = 0; f < scan.faces.size(); ++f) {
-        std::vector<std::uint32_t> corners;
-        for (const auto v : scan.faces[f]) corners.push_back(place[v]);
-        if (std::find(corners.begin(), corners.end(), nowhere) == corners.end()) cleaned.faces.add(corners);
-    }
-    return cleaned;
-}
-
 }  // namespace
 
 RangeScan clean(const RangeScan& scan, const CleaningOptions& options, CleaningReport* report) {
@@ -146,7 +118,7 @@ RangeScan clean(const RangeScan& scan, const CleaningOptions& options, CleaningR
     counts.kept = counts.points - counts.spikes - counts.stray_points;
     if (counts.kept == 0) throw InputError("cleaning left no point; raise spike_mm or lower min_part");
     if (report) *report = counts;
-    return without(scan, dropped);
+    return geometry::leave_out_points(scan, dropped);
 }
 
 }  // namespace mimik::preprocessing

@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Part of every fingerprint: raise it when the steps give other numbers for the same scan and options.
-constexpr int steps_version = 6;
+constexpr int steps_version = 7;
 
 /// " value" of every field of an options struct, as fingerprints have had them from the beginning.
 template <base::HasFields Options>
@@ -62,8 +62,9 @@ std::string field_values(const Options& options) {
 }
 
 std::string describe(const PreprocessOptions& options) {
-    auto text = fmt::format("steps {} clean{} grid{} icp{}", steps_version, field_values(options.steps.cleaning),
-                            field_values(options.steps.gridding), field_values(options.alignment));
+    auto text = fmt::format("steps {} crop{} clean{} grid{} icp{}", steps_version, field_values(options.steps.crop),
+                            field_values(options.steps.cleaning), field_values(options.steps.gridding),
+                            field_values(options.alignment));
     for (const auto& kind : std::set<std::string>(options.accept.begin(), options.accept.end()))
         text += " accept " + kind;
     return text;

@@ -33,14 +33,28 @@ void judge_cloud(const GriddingReport& gridded, const database::LoadedScan& load
                         100 * gridded.seen_through));
 }
 
-/// Every landmark at the nearest vertex of the grid.
-geometry::Landmarks snapped_landmarks(const Face& face) {
+/// The box of the face; none if all is kept, or a landmark is missing (a remark).
+std::optional<FaceBox> box_of(const geometry::Landmarks& landmarks, const FaceCropOptions& options,
+                              std::vector<std::string>& remarks) {
+    if (!options.crop) return std::nullopt;
+    std::string lacking;
+    auto box = face_box(landmarks, options, &lacking);
+    if (!box) remarks.push_back(fmt::format("not cropped to the face: {}", lacking));
+    return box;
+}
+
+/// Every landmark at the nearest vertex of the grid. Where an ear was cut off, the nearest vertex is no ear.
+geometry::Landmarks snapped_landmarks(const Face& face, const std::optional<FaceBox>& box) {
     std::vector<Point> inside;
     for (std::size_t v = 0; v < face.grid.size(); ++v)
         if (face.grid.inside(v)) inside.push_back(face.grid.vertices_mm[v]);
     const geometry::PointIndex index(inside);
-    std::vector<geometry::Landmark> snapped(face.landmarks.all().begin(), face.landmarks.all().end());
-    for (auto& mark : snapped) mark.position_mm = inside[index.nearest(mark.position_mm).index];
+    std::vector<geometry::Landmark> snapped;
+    for (auto mark : face.landmarks.all()) {
+        if (box && !box->holds(mark.position_mm)) continue;
+        mark.position_mm = inside[index.nearest(mark.position_mm).index];
+        snapped.push_back(mark);
+    }
     return geometry::Landmarks(std::move(snapped));
 }
 
@@ -75,15 +89,25 @@ void give_picture(Face& face, const database::LoadedScan& loaded) {
         face.grid.texture_coordinates.clear();
 }
 
+void remark_on_losses(const ScanStepsReport& done, std::vector<std::string>& remarks) {
+    if (const auto& crop = done.crop; 2 * crop.left_out > crop.points)
+        remarks.push_back(fmt::format("cropped to the face: {:.0f} % of the points lie outside",
+                                      100.0 * static_cast<double>(crop.left_out) / static_cast<double>(crop.points)));
+    const auto& cleaned = done.cleaning;
+    if (const auto lost = cleaned.spikes + cleaned.stray_points; 20 * lost > cleaned.points)
+        remarks.push_back(fmt::format("cleaning left out {} of {} points: {} spikes, and {} stray points in {} parts",
+                                      lost, cleaned.points, cleaned.spikes, cleaned.stray_points, cleaned.stray_parts));
+}
+
 }  // namespace
 
 void ScanSteps::check() const {
+    crop.check();
     cleaning.check();
     gridding.check();
 }
 
-Face preprocess_scan(const database::LoadedScan& loaded, const ScanSteps& steps, CleaningReport* cleaning,
-                     GriddingReport* gridding) {
+Face preprocess_scan(const database::LoadedScan& loaded, const ScanSteps& steps, ScanStepsReport* report) {
     Face face;
     face.id = loaded.entry.id;
     face.sex = loaded.entry.sex;
@@ -94,20 +118,17 @@ Face preprocess_scan(const database::LoadedScan& loaded, const ScanSteps& steps,
         face.texture_file = loaded.entry.texture_file;
     else if (!loaded.entry.texture_file.empty())
         face.remarks.emplace_back("the image beside it is not used: the scan has no texture coordinates");
-    CleaningReport cleaned;
-    GriddingReport gridded;
-    face.grid = grid_scan(clean(loaded.scan, steps.cleaning, &cleaned), steps.gridding, &gridded);
-    judge_cloud(gridded, loaded, face.remarks);
+    ScanStepsReport done;
+    const auto box = box_of(loaded.landmarks, steps.crop, face.remarks);
+    // Before cleaning: shoulders may be the largest part of a scan, and the face a stray one.
+    const auto cropped = box ? crop_to_face(loaded.scan, *box, &done.crop) : loaded.scan;
+    face.grid = grid_scan(clean(cropped, steps.cleaning, &done.cleaning), steps.gridding, &done.gridding);
+    judge_cloud(done.gridding, loaded, face.remarks);
     give_picture(face, loaded);
-    if (const auto lost = cleaned.spikes + cleaned.stray_points; 20 * lost > cleaned.points)
-        face.remarks.push_back(fmt::format("cleaning left out {} of {} points: {}, and {} in {}", lost, cleaned.points,
-                                           base::counted(cleaned.spikes, "spike"),
-                                           base::counted(cleaned.stray_points, "stray point"),
-                                           base::counted(cleaned.stray_parts, "part")));
-    if (cleaning) *cleaning = cleaned;
-    if (gridding) *gridding = gridded;
+    remark_on_losses(done, face.remarks);
+    if (report) *report = done;
 
-    face.snapped_landmarks = snapped_landmarks(face);
+    face.snapped_landmarks = snapped_landmarks(face, box);
     return face;
 }
 

@@ -4,16 +4,19 @@
 #include "database/scan_database.h"
 #include "preprocessing/cleaning.h"
 #include "preprocessing/face.h"
+#include "preprocessing/face_crop.h"
 #include "preprocessing/gridding.h"
 
 namespace mimik::preprocessing {
 
 /// How one scan becomes a face.
 struct ScanSteps {
+    FaceCropOptions crop;
     CleaningOptions cleaning;
     GriddingOptions gridding;
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("crop", self.crop);
         visit("cleaning", self.cleaning);
         visit("gridding", self.gridding);
     }
@@ -21,8 +24,17 @@ struct ScanSteps {
 };
 static_assert(base::lists_every_field<ScanSteps>());
 
-/// One scan to a face in the scanner's frame: cleaned, gridded, landmarks snapped; transforms still identity.
+/// How the steps went.
+struct ScanStepsReport {
+    FaceCropReport crop;  ///< all 0 where nothing was cropped
+    CleaningReport cleaning;
+    GriddingReport gridding;
+};
+
+/// One scan to a face in the scanner's frame: cropped, cleaned, gridded, landmarks snapped; transforms still identity.
+/// Landmarks outside the crop (ear lobes) have no snapped place. A scan without a landmark that the crop needs is kept
+/// whole, with a remark.
 [[nodiscard]] Face preprocess_scan(const database::LoadedScan& loaded, const ScanSteps& steps = {},
-                                   CleaningReport* cleaning = nullptr, GriddingReport* gridding = nullptr);
+                                   ScanStepsReport* report = nullptr);
 
 }  // namespace mimik::preprocessing

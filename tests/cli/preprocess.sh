@@ -18,6 +18,9 @@ expect_code 2 "--trim: trim is 2" "$mimik" preprocess db1 -o x --trim 2
 [ ! -e x ]
 claim "wrong input is named, ends with 2 and leaves nothing behind"
 
+"$mimik" preprocess "$shared/db1" -o work1 --keep-all --dry-run | grep -q '^15 scans: 0 up to date, 15 remain' || fail "--keep-all changed nothing"
+claim "--keep-all makes every face anew"
+
 echo "no table" >bad.toml
 expect_code 2 "trim is nan" "$mimik" preprocess db1 -o x --trim nan --dry-run
 expect_code 2 "100000" "$mimik" preprocess db1 -o x --rows 100000 --dry-run
