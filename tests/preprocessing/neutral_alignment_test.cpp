@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "preprocessing/stable_region.h"
 #include "tests/support/analytic_workspace.h"
 
 namespace mimik::preprocessing {
@@ -35,6 +36,29 @@ TEST(AlignToNeutral, a_jaw_that_rests_elsewhere_turns_the_forehead_less_than_if_
     EXPECT_GT(plain_mm, 0.1);  // else this test could not fail
     // The jaw is far from the middle, so a fifth of its weight still has half its leverage; all alike would give 1.
     EXPECT_LT(error_mm, 0.8 * plain_mm);
+}
+
+TEST(AlignToNeutral, fear_that_moves_brows_temples_and_jaw_does_not_turn_the_head) {
+    // Above the eyes (y = 35) the skin comes forward, by 2 mm at the hairline; below the nose tip (y = 0) it goes back,
+    // by 2 mm at the chin. Nose and cheeks hold still.
+    const test::AnalyticFace shape;
+    auto afraid = shape.scan(1.0);
+    for (auto& p : afraid.points_mm)
+        if (p.allFinite()) p.z() += 0.05 * std::max(0.0, p.y() - 36) + 0.03 * std::min(0.0, p.y() + 16);
+    Face neutral, scan;
+    neutral.grid = grid_scan(shape.scan(1.0));
+    scan.grid = grid_scan(afraid);
+    neutral.landmarks = scan.landmarks = shape.landmarks();
+    const auto error_mm = [&](const geometry::VertexMask& stable) {
+        align_to_neutral(scan, neutral, stable);
+        double worst = 0;
+        for (const Point& p : {shape.point(0, 75), shape.point(0, -60), shape.point(60, 20)})
+            worst = std::max(worst, (scan.neutral_from_scan * p - p).norm());
+        return worst;
+    };
+    const auto fear = *facs::parse_expression("FEAR");
+    EXPECT_GT(error_mm(stable_on_every_face(neutral)), 0.1);  // its temples move: else this test could not fail
+    EXPECT_LT(error_mm(stable_vertices(facs::builtin_catalogue(), fear, neutral)), 0.03);
 }
 
 }  // namespace
