@@ -1,5 +1,6 @@
 #include "preprocessing/face_crop.h"
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 
@@ -9,6 +10,7 @@
 #include "base/errors.h"
 #include "io/mesh_io.h"
 #include "preprocessing/average_face.h"
+#include "preprocessing/bake_texture.h"
 #include "preprocessing/preprocess_scan.h"
 #include "tests/support/analytic_face.h"
 #include "tests/support/thrown.h"
@@ -211,6 +213,35 @@ TEST(FaceCrop, an_ear_that_was_cut_off_has_no_snapped_place_but_its_mark_stays) 
     ScanSteps all;
     all.crop.crop = false;
     EXPECT_TRUE(preprocess_scan(loaded, all).snapped_landmarks.find("ear_lobe_left"));
+}
+
+TEST(FaceCrop, a_picture_for_the_cropped_grid_is_painted_from_the_charts_of_the_whole_scan) {
+    const auto mesh = bust();
+    geometry::TextureCharts charts;
+    charts.points_mm = mesh.points_mm;
+    charts.faces = mesh.faces;
+    charts.faces.texture_corners = mesh.faces.corners;
+    for (const auto& p : mesh.points_mm) charts.positions.emplace_back((p.x() + 150) / 300, 0.5);
+    io::Image image{100, 1, {}};  // red at the subject's right, green at the left
+    constexpr std::uint8_t full = 200, none = 0;
+    for (int x = 0; x < 100; ++x) {
+        const std::array<std::uint8_t, 3> colour = {x < 50 ? full : none, x < 50 ? none : full, none};
+        image.rgb.insert(image.rgb.end(), colour.begin(), colour.end());
+    }
+    const auto box = face_box(test::AnalyticFace{}.landmarks());
+    ASSERT_TRUE(box);
+    auto grid = grid_scan(crop_to_face(mesh, *box));
+    const std::vector<std::optional<io::Image>> images = {image};
+    const auto picture = bake_texture(charts, images, grid);
+    for (std::size_t v = 0; v < grid.size(); ++v) {
+        if (!grid.measured(v) || std::abs(grid.vertices_mm[v].x()) < 5) continue;
+        const auto& uv = grid.texture_coordinates[v];
+        const auto x = static_cast<std::size_t>(uv.x() * picture.width);
+        const auto y = static_cast<std::size_t>((1 - uv.y()) * picture.height);
+        const auto first = 3 * (y * static_cast<std::size_t>(picture.width) + x);
+        const std::size_t channel = grid.vertices_mm[v].x() < 0 ? 0 : 1;
+        ASSERT_EQ(picture.rgb[first + channel], 200) << grid.vertices_mm[v].transpose();
+    }
 }
 
 TEST(FaceCrop, without_a_chin_nothing_is_cropped_and_a_remark_says_so) {
