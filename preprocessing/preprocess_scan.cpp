@@ -95,8 +95,10 @@ void remark_on_losses(const ScanStepsReport& done, std::vector<std::string>& rem
                                       100.0 * static_cast<double>(crop.left_out) / static_cast<double>(crop.points)));
     const auto& cleaned = done.cleaning;
     if (const auto lost = cleaned.spikes + cleaned.stray_points; 20 * lost > cleaned.points)
-        remarks.push_back(fmt::format("cleaning left out {} of {} points: {} spikes, and {} stray points in {} parts",
-                                      lost, cleaned.points, cleaned.spikes, cleaned.stray_points, cleaned.stray_parts));
+        remarks.push_back(fmt::format("cleaning left out {} of {} points: {}, and {} in {}", lost, cleaned.points,
+                                      base::counted(cleaned.spikes, "spike"),
+                                      base::counted(cleaned.stray_points, "stray point"),
+                                      base::counted(cleaned.stray_parts, "part")));
 }
 
 }  // namespace
