@@ -237,7 +237,7 @@ std::optional<bool> lips_closed(const geometry::FaceSurface& neutral) {
 
 bool torn_lips(std::span<const preprocessing::LipSide> lip_sides, std::span<const Vector> field_mm,
                std::span<const std::uint32_t> corners) {
-    constexpr double parted_by_mm = 0.5;
+    constexpr double parted_by_mm = 1.5;
     using preprocessing::LipSide;
     if (lip_sides.empty()) return false;
     for (const auto a : corners)

@@ -91,7 +91,7 @@ struct AnimatedFace {
 };
 
 /// Whether the surface between some vertices is torn by a motion: they lie on both lips, which part there by more than
-/// half a millimetre.
+/// one and a half millimetres.
 [[nodiscard]] bool torn_lips(std::span<const preprocessing::LipSide> lip_sides,
                              std::span<const geometry::Vector> field_mm, std::span<const std::uint32_t> corners);
 

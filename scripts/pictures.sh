@@ -87,6 +87,16 @@ draw methods --columns 5 --size 220x290 --font-size 17 "${by_method[@]}" $panel/
 draw scoring --columns 4 --size 260x310 "${by_method[@]}" --scalar distance_mm --range 0 5 --label "distance to the scan, mm" \
   --caption nothing --caption thesis --caption default --caption mean
 
+# Expressions of five others, put on the sixth by a template that was bent on to all.
+"$mimik" synthesize jaw_db --subjects 6 --seed 1 --expressions 12,15,27 --quiet >/dev/null
+"$mimik" preprocess jaw_db -o jaw_work --quiet >/dev/null
+for au in 12 15 27; do
+  "$mimik" animate jaw_work --method dense --target bs001 --au $au -o dense$au.ply --quiet >/dev/null
+done
+"$mimik" animate jaw_work --target bs001 --au 27 -o sparse27.ply --quiet >/dev/null
+draw dense --columns 5 --size 220x290 --font-size 17 $panel/target_neutral.ply dense12.ply dense15.ply dense27.ply sparse27.ply \
+  --caption "neutral" --caption "AU 12" --caption "AU 15" --caption "AU 27" --caption "AU 27 by points"
+
 "$mimik" distance $panel/target_animated.ply $panel/target_real.ply -o target_animated.vtp --quiet >/dev/null
 "$mimik" distance $panel/target_real.ply $panel/target_animated.ply -o back.vtp --quiet >/dev/null
 draw surface_distance --columns 2 --size 340x400 target_animated.vtp back.vtp --scalar distance_mm --range 0 4 --label "distance, mm" \

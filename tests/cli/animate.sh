@@ -57,6 +57,26 @@ expect_code 0 "note: AU27 pulls the lips apart" "$mimik" animate lips_work --sou
 ! grep -q 'lips apart' lips1.json lips12.json || fail "a note on lips that stay together"
 claim "who opens a closed mouth is told that it stays one piece, and nobody else"
 
+"$mimik" animate lips_work --source bs000 --target bs001 --au 27 --method dense -o dense.ply --json >dense.json
+! grep -q 'lips apart' dense.json || fail "the template's lips part, and are said not to"
+faces() { sed -n 's/^element face //p' "$1" | head -n 1; }
+"$mimik" animate lips_work --source bs000 --target bs001 --au 27:0 -o rest.ply --quiet
+[ "$(faces dense.ply)" -lt "$(faces rest.ply)" ] || fail "the surface between the lips is still there"
+"$mimik" model lips_work --method dense --source bs000 --au 27 -o dense_models --quiet
+"$mimik" animate lips_work --target bs001 --method dense --model dense_models/bs000/AU27.json -o stored.ply --quiet
+"$mimik" distance dense.ply stored.ply --json | grep -q '"max": 0.0' || fail "a stored dense model moves a face otherwise"
+claim "a dense model opens a closed mouth, and a stored one does the same"
+
+"$mimik" panels lips_work --source bs000 --target bs001 --au 12 -o own --quiet
+mesh=$(find own -name target_neutral.ply) marks=$(find own -name target_landmarks.csv)
+"$mimik" animate lips_work --source bs000 --mesh "$mesh" --landmarks "$marks" --au 12 -o own.ply --json >own.json
+[ "$(faces own.ply)" = "$(faces "$mesh")" ] || fail "faces of the mesh are lost"
+grep -q '"target": "target_neutral.ply"\|"target": ".*target_neutral.ply"' own.json || fail "the mesh is not named"
+expect_code 2 "--target, a subject of the workspace, or --mesh" "$mimik" animate lips_work --au 12 -o none.ply
+expect_code 2 "leave them out with --mesh" "$mimik" animate lips_work --mesh "$mesh" --landmarks "$marks" --au 12 --keep-bridged -o none.ply
+[ ! -e none.ply ]
+claim "a mesh of one's own is animated with all its faces"
+
 "$mimik" animate work1 --source bs000 --target bs001 --au 12:0 -o neutral.ply --quiet
 "$mimik" distance neutral.ply neutral.ply --json | awk '/"max"/ { sub(/.*: /, ""); if ($0 + 0 > 1e-6) exit 1 }'
 claim "a face is nowhere off itself"  # a vertex that no polygon uses would be

@@ -50,7 +50,8 @@ TEST_F(Template, is_cut_between_the_corners_of_the_mouth) {
         }
     }
     // No triangle joins the lips: whoever has a vertex of the upper rim has none of the lower, corners apart.
-    const std::set<std::uint32_t> of_upper(upper.begin() + 1, upper.end() - 1), of_lower(lower.begin() + 1, lower.end() - 1);
+    const std::set<std::uint32_t> of_upper(upper.begin() + 1, upper.end() - 1),
+        of_lower(lower.begin() + 1, lower.end() - 1);
     for (const auto& t : made_->surface.triangles) {
         const auto touches = [&](const auto& rim) {
             return std::any_of(t.begin(), t.end(), [&](auto v) { return rim.count(v) > 0; });
@@ -63,15 +64,16 @@ TEST_F(Template, ends_its_cut_at_the_corners_that_were_marked) {
     const auto& right = made_->surface.vertices_mm[made_->upper_lip_line.front()];
     const auto& left = made_->surface.vertices_mm[made_->upper_lip_line.back()];
     const auto& marks = average_->landmarks;
-    EXPECT_NEAR(left.x() - right.x(), (marks.position_mm("mouth_corner_left") - marks.position_mm("mouth_corner_right")).x(),
-                1e-9);
+    EXPECT_NEAR(left.x() - right.x(),
+                (marks.position_mm("mouth_corner_left") - marks.position_mm("mouth_corner_right")).x(), 1e-9);
 }
 
 TEST_F(Template, carries_every_landmark_of_the_average_face) {
     ASSERT_EQ(made_->landmarks.size(), average_->landmarks.size());
     for (const auto& bound : made_->landmarks) {
         const auto place = position_mm(bound, made_->surface.vertices_mm);
-        // Between two lattice lines of 2 mm a face of this curvature lies 0.1 mm off its chord; inner lips go to the cut.
+        // Between two lattice lines of 2 mm a face of this curvature lies 0.1 mm off its chord; inner lips go to the
+        // cut.
         const double most_mm = bound.name.find("lip_inner") != std::string::npos ? 2.5 : 0.5;
         EXPECT_LT((place - average_->landmarks.position_mm(bound.name)).norm(), most_mm) << bound.name;
     }

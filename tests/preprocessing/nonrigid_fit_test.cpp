@@ -42,8 +42,8 @@ TEST(NonrigidFit, lays_a_flat_sheet_on_a_bowl) {
     EXPECT_EQ(fit.matched_share, 1.0);
     // The last stage still weighs differences a tenth of the data: of 7 mm of depth about a seventieth is left.
     EXPECT_LT(fit.residual_rms_mm, 0.15);
-    EXPECT_GT(fit.vertices_mm[flat.size() / 2].z(), 4.5);   // the bowl's top is at 5
-    EXPECT_LT(fit.vertices_mm.front().z(), 0.0);            // and its rim below 0
+    EXPECT_GT(fit.vertices_mm[flat.size() / 2].z(), 4.5);  // the bowl's top is at 5
+    EXPECT_LT(fit.vertices_mm.front().z(), 0.0);           // and its rim below 0
 }
 
 TEST(NonrigidFit, gives_the_same_bytes_again) {

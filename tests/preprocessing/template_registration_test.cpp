@@ -76,7 +76,8 @@ TEST_F(Registration, follows_a_smile_and_leaves_the_forehead_alone) {
     int above = 0;
     for (std::size_t v = 0; v < motion.motion_mm.size(); ++v) {
         const Point unit = on_unit_face(neutral_->vertices_mm[v]);
-        const Vector moved = average_from_unit * (smile.point(unit.x(), unit.y()) - test::AnalyticFace{}.point(unit.x(), unit.y()));
+        const Vector moved =
+            average_from_unit * (smile.point(unit.x(), unit.y()) - test::AnalyticFace{}.point(unit.x(), unit.y()));
         if (moved.norm() > 1.2) {  // a fifth of the peak
             error += (motion.motion_mm[v] - moved).norm();
             truth += moved.norm();
