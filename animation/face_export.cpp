@@ -22,8 +22,31 @@ namespace {
 
 enum class Positions { neutral, animated };
 
+template <typename Value>
+void keep_marked(std::vector<Value>& values, const std::vector<std::uint8_t>& marked, std::size_t per_vertex = 1) {
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (marked[k / per_vertex]) values[next++] = values[k];
+    values.resize(next);
+}
+
+/// Vertices that no face uses are no surface.
+void drop_unused_vertices(Mesh& mesh, std::vector<std::uint32_t>& kept) {
+    std::vector<std::uint8_t> used(mesh.vertices_mm.size(), 0);
+    for (const auto corner : mesh.faces.corners) used[corner] = 1;
+    std::vector<std::uint32_t> renamed;
+    std::uint32_t next = 0;
+    for (const auto is_used : used) renamed.push_back(is_used ? next++ : next);
+    for (auto& corner : mesh.faces.corners) corner = renamed[corner];
+    keep_marked(mesh.vertices_mm, used);
+    keep_marked(mesh.texture_coordinates, used);
+    keep_marked(kept, used);
+    for (auto& attribute : mesh.attributes)
+        keep_marked(attribute.values, used, static_cast<std::size_t>(attribute.components));
+}
+
 /// Leaves out the faces that parting lips would stretch into a web.
-void cut_lips(Mesh& mesh, const AnimatedFace& animated, std::span<const std::uint32_t> kept) {
+void cut_lips(Mesh& mesh, const AnimatedFace& animated, std::vector<std::uint32_t>& kept) {
     if (animated.lip_sides.empty()) return;
     geometry::Faces whole;
     std::vector<std::uint32_t> corners;
@@ -35,6 +58,7 @@ void cut_lips(Mesh& mesh, const AnimatedFace& animated, std::span<const std::uin
         if (!torn) whole.add(mesh.faces[f]);
     }
     mesh.faces = std::move(whole);
+    drop_unused_vertices(mesh, kept);
 }
 
 /// The grid in the frame asked for, with the displacement of its neutral vertices as an attribute.

@@ -276,13 +276,16 @@ int animate_own_mesh(const Arguments& arguments, const preprocessing::Workspace&
 
 /// Either a subject of the workspace or a mesh with its landmarks.
 void check_target(const Arguments& arguments) {
-    if (arguments.target.empty() == arguments.mesh.empty())
-        throw InputError("give a face to animate: --target, a subject of the workspace, or --mesh and --landmarks");
+    if (arguments.target.empty() && arguments.mesh.empty())
+        throw InputError(
+            "--target: is missing (Subject whose first neutral face is animated); give it, or --mesh and --landmarks");
+    if (!arguments.target.empty() && !arguments.mesh.empty())
+        throw InputError("--mesh: --target names a face, too; give one of them");
     if (!arguments.mesh.empty() &&
         (!arguments.hold.empty() || arguments.keep_bridged || arguments.arkit_names || arguments.frame != "scanner"))
         throw InputError(
-            "--hold, --keep-bridged, --arkit-names and --frame are for faces of the workspace; leave them "
-            "out with --mesh");
+            "--mesh: --hold, --keep-bridged, --arkit-names and --frame are for faces of the "
+            "workspace; leave them out");
 }
 
 int run(Arguments& arguments) {

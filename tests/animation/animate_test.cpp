@@ -105,64 +105,6 @@ TEST_F(Animate, moves_a_face_of_other_size_most_of_the_way_to_its_own_smile) {
     EXPECT_LT(animated_mm, 0.5 * nothing_mm);
 }
 
-modeling::ModelOptions dense_options() {
-    modeling::ModelOptions options;
-    options.correspondence = modeling::Correspondence::dense;
-    return options;
-}
-
-TEST_F(Animate, a_dense_model_moves_a_face_of_other_size_part_of_the_way_to_its_own_smile) {
-    const auto dense = smile(dense_options());
-    const PreparedTarget target(target_->neutral);
-    const WeightedExpression weighted{&dense, 1.0};
-    AnimatedFace still;
-    still.field = geometry::DisplacementField::still(target_->neutral.grid.size());
-    const double nothing_mm = smile_error_mm(still, target_->neutral, 1.1, 6.0);
-    const double dense_mm = smile_error_mm(animate(target, std::span(&weighted, 1)), target_->neutral, 1.1, 6.0);
-    // This smile slides along skin that is nearly flat, and hardly 12 mm about the corners: only the landmarks show it.
-    EXPECT_LT(dense_mm, 0.6 * nothing_mm);
-}
-
-TEST_F(Animate, a_dense_model_fades_to_nothing_beyond_the_face) {
-    const auto dense = smile(dense_options());
-    const auto& average = average_->grid;
-    double lowest = 1e9;
-    for (std::size_t v = 0; v < average.size(); ++v)
-        if (average.inside(v)) lowest = std::min(lowest, average.vertices_mm[v].y());
-    // A head with a collar: a plate far below the chin.
-    auto mesh = geometry::to_mesh(target_->neutral.grid);
-    const auto on_face = static_cast<std::uint32_t>(mesh.vertices_mm.size());
-    const auto scan_from_average = target_->neutral.average_from_scan.inverse();
-    for (const auto& [x, y] : {std::pair(-40.0, -60.0), std::pair(40.0, -60.0), std::pair(0.0, -90.0)})
-        mesh.vertices_mm.emplace_back(scan_from_average * Point(x, lowest + y, -30.0));
-    mesh.faces.add(std::array{on_face, on_face + 2, on_face + 1});
-    mesh.texture_coordinates.clear();
-    mesh.attributes.clear();
-    const WeightedExpression weighted{&dense, 1.0};
-    const auto moved = animate_mesh(mesh, target_->neutral.landmarks, *average_, std::span(&weighted, 1));
-    double most = 0;
-    for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
-        const double way = (moved.vertices_mm[v] - mesh.vertices_mm[v]).norm();
-        if (v >= on_face) {
-            EXPECT_EQ(way, 0.0);
-        }
-        most = std::max(most, way);
-    }
-    EXPECT_GT(most, 3.0);  // half of the smile
-}
-
-TEST_F(Animate, surface_between_lips_that_part_is_torn_and_else_whole) {
-    using preprocessing::LipSide;
-    const std::vector<LipSide> sides = {LipSide::upper, LipSide::lower, LipSide::neither};
-    const std::vector<Vector> parted = {Vector(0, 1, 0), Vector(0, -1, 0), Vector(0, 0, 0)};
-    const std::vector<Vector> together = {Vector(0, 1, 0), Vector(0, 0.8, 0), Vector(0, -5, 0)};
-    const std::vector<std::uint32_t> corners = {0, 1, 2}, upper_alone = {0, 2};
-    EXPECT_TRUE(torn_lips(sides, parted, corners));
-    EXPECT_FALSE(torn_lips(sides, together, corners));
-    EXPECT_FALSE(torn_lips(sides, parted, upper_alone));
-    EXPECT_FALSE(torn_lips({}, parted, corners));
-}
-
 TEST_F(Animate, lower_face_units_leave_the_brows_alone) {
     const auto model = smile();
     const PreparedTarget target(target_->neutral);

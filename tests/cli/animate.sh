@@ -72,8 +72,8 @@ mesh=$(find own -name target_neutral.ply) marks=$(find own -name target_landmark
 "$mimik" animate lips_work --source bs000 --mesh "$mesh" --landmarks "$marks" --au 12 -o own.ply --json >own.json
 [ "$(faces own.ply)" = "$(faces "$mesh")" ] || fail "faces of the mesh are lost"
 grep -q '"target": "target_neutral.ply"\|"target": ".*target_neutral.ply"' own.json || fail "the mesh is not named"
-expect_code 2 "--target, a subject of the workspace, or --mesh" "$mimik" animate lips_work --au 12 -o none.ply
-expect_code 2 "leave them out with --mesh" "$mimik" animate lips_work --mesh "$mesh" --landmarks "$marks" --au 12 --keep-bridged -o none.ply
+expect_code 2 "give it, or --mesh and --landmarks" "$mimik" animate lips_work --au 12 -o none.ply
+expect_code 2 "are for faces of the workspace; leave them out" "$mimik" animate lips_work --mesh "$mesh" --landmarks "$marks" --au 12 --keep-bridged -o none.ply
 [ ! -e none.ply ]
 claim "a mesh of one's own is animated with all its faces"
 

@@ -41,7 +41,8 @@ expect_line "--seed is -1; give a whole number of 0 or more" "$mimik" synthesize
 expect_line "--threads is 1025; give 0 to 1024" "$mimik" scans DB --threads 1025
 expect_line "--range is 'x'; give a number" "$mimik" figure a.ply --scalar s --range 0 x -o a.png
 claim "numbers are read whole, with the same words everywhere"
-expect_line $'--target: is missing (Subject whose\nusage: mimik animate WORK --target TEXT' "$mimik" animate WORK -o a.ply
+expect_line $'--from: is missing (Landmarks on\nusage: mimik warp INPUT --from TEXT' "$mimik" warp a.ply -o b.ply
+expect_line $'--target: is missing (Subject whose\nor --mesh and --landmarks' "$mimik" animate WORK -o a.ply
 expect_line $'REFERENCE: is missing (Mesh with faces)\nusage: mimik distance TEST REFERENCE' "$mimik" distance a.ply
 expect_line "'c.ply': more than 'mimik distance' takes" "$mimik" distance a.ply b.ply c.ply
 expect_line "--target: its value is missing; give one: Subject" "$mimik" animate WORK --target
