@@ -253,7 +253,7 @@ int animate_own_mesh(const Arguments& arguments, const preprocessing::Workspace&
     auto file = io::read_mesh_file(arguments.mesh);
     const auto landmarks = io::read_landmarks(arguments.landmarks, file.mesh.vertices_mm);
     animation::AnimatedFace animated;
-    file.mesh = naming_any({arguments.mesh, arguments.landmarks}, [&] {
+    file.mesh = naming_any({arguments.landmarks, arguments.mesh}, [&] {
         return animation::animate_mesh(file.mesh, landmarks, workspace.average(), chosen.weighted(),
                                        arguments.method.animation_options(), &animated);
     });

@@ -102,6 +102,7 @@ public:
             throw InputError("the average face has no surface; make the workspace again");
         add_triangles();
         drop_unused();
+        check_lips();
         made_.surface.present.assign(made_.size(), 1);
         made_.surface.measured.assign(made_.size(), 1);
         made_.surface.landmarks = average_.landmarks;
@@ -222,6 +223,17 @@ private:
             for (auto& corner : triangle) corner = renamed[corner];
         for (auto* line : {&made_.upper_lip_line, &made_.lower_lip_line})
             for (auto& v : *line) v = renamed[v];
+    }
+
+    void check_lips() const {
+        const auto lost = [](std::uint32_t v) { return v == none; };
+        for (const auto* line : {&made_.upper_lip_line, &made_.lower_lip_line})
+            if (line->size() != static_cast<std::size_t>(2 * corner_column_ + 1) ||
+                std::any_of(line->begin(), line->end(), lost))
+                throw InputError(
+                    "the average face has no surface between the corners of the mouth, so no template can be cut "
+                    "there; "
+                    "make the workspace again with scans that show the mouth");
     }
 
     void bind_landmarks() {

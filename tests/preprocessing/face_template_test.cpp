@@ -1,6 +1,7 @@
 #include "preprocessing/face_template.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -89,6 +90,15 @@ TEST_F(Template, knows_to_which_lip_a_vertex_belongs) {
         if (made_->surface.vertices_mm[v].y() > 0) {
             EXPECT_EQ(shares[v], 0.0);  // above the nose tip
         }
+}
+
+TEST_F(Template, is_refused_where_the_average_face_has_no_mouth) {
+    auto average = *average_;
+    const double corner_y = average.landmarks.position_mm("mouth_corner_left").y();
+    for (std::size_t v = 0; v < average.grid.size(); ++v)
+        if (average.grid.inside(v) && std::abs(average.grid.vertices_mm[v].y() - corner_y) < 10)
+            average.grid.origin[v] = geometry::VertexOrigin::outside;
+    EXPECT_THROW((void)build_face_template(average), InputError);
 }
 
 TEST_F(Template, refuses_a_spacing_that_makes_no_face) {
