@@ -46,7 +46,8 @@ void drop_unused_vertices(Mesh& mesh, std::vector<std::uint32_t>& kept) {
 }
 
 /// Leaves out the faces that parting lips would stretch into a web.
-void cut_lips(Mesh& mesh, const AnimatedFace& animated, std::vector<std::uint32_t>& kept) {
+/// @param at_any_magnitude  whatever the expressions are set to: morph targets can be moved
+void cut_lips(Mesh& mesh, const AnimatedFace& animated, std::vector<std::uint32_t>& kept, bool at_any_magnitude) {
     if (animated.lip_sides.empty()) return;
     geometry::Faces whole;
     std::vector<std::uint32_t> corners;
@@ -54,7 +55,8 @@ void cut_lips(Mesh& mesh, const AnimatedFace& animated, std::vector<std::uint32_
         corners.clear();
         for (const auto v : mesh.faces[f]) corners.push_back(kept[v]);
         bool torn = torn_lips(animated.lip_sides, animated.field.mm, corners);
-        for (const auto& shape : animated.shapes) torn = torn || torn_lips(animated.lip_sides, shape.mm, corners);
+        if (at_any_magnitude)
+            for (const auto& shape : animated.shapes) torn = torn || torn_lips(animated.lip_sides, shape.mm, corners);
         if (!torn) whole.add(mesh.faces[f]);
     }
     mesh.faces = std::move(whole);
@@ -78,7 +80,7 @@ Mesh mesh_of(const AnimatedFace& animated, const preprocessing::Face& neutral, c
         displacement.values.insert(displacement.values.end(), d.begin(), d.end());
     }
     mesh.attributes.insert(mesh.attributes.begin(), std::move(displacement));
-    cut_lips(mesh, animated, kept);
+    cut_lips(mesh, animated, kept, positions == Positions::neutral);
     if (kept_vertices) *kept_vertices = std::move(kept);
     return mesh;
 }
@@ -169,8 +171,9 @@ std::filesystem::path vertex_values_file(const std::filesystem::path& file) {
     return file.parent_path() / (file.stem().string() + "_vertices.csv");
 }
 
-Mesh to_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral, const ExportOptions& options) {
-    return mesh_of(animated, neutral, options, Positions::animated);
+Mesh to_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral, const ExportOptions& options,
+             std::vector<std::uint32_t>* kept_vertices) {
+    return mesh_of(animated, neutral, options, Positions::animated, kept_vertices);
 }
 
 std::vector<std::string> write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated,

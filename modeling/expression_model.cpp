@@ -106,6 +106,23 @@ bool crosses_border(const facs::SidedUnit& sided, const Landmarks& landmarks) {
     });
 }
 
+/// Of a scan that shows both sides, an expression of one side takes that alone: smooth over 20 mm about the mid-line.
+void keep_side(TemplateMotion& dense, const facs::Expression& expression) {
+    constexpr double blend_mm = 20.0;
+    const auto units = expression.units();
+    if (units.empty()) return;
+    const auto side = units.front().side;
+    for (const auto& unit : units)
+        if (unit.side != side) return;
+    if (side == facs::Side::both) return;
+    const double sign = side == facs::Side::left ? 1.0 : -1.0;
+    const auto& rest_mm = dense.registration->face_template().surface.vertices_mm;
+    for (std::size_t v = 0; v < rest_mm.size(); ++v) {
+        const double t = std::clamp(0.5 + sign * rest_mm[v].x() / blend_mm, 0.0, 1.0);
+        dense.motion_mm[v] *= t * t * (3.0 - 2.0 * t);
+    }
+}
+
 }  // namespace
 
 ExpressionGauge::ExpressionGauge(const facs::FacsCatalogue& catalogue, const facs::Expression& expression,
@@ -206,9 +223,11 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     }
     for (const auto& anchor : placed.anchors)
         model.points.push_back({anchor.name, facs::ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
-    if (registration_)
+    if (registration_) {
         model.dense = {registration_,
                        registration_->motion(neutral, registration_->neutral(neutral), expressive).motion_mm};
+        if (expressive.id.side() == facs::Side::both) keep_side(*model.dense, expression_);
+    }
     return model;
 }
 

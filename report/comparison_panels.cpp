@@ -304,13 +304,13 @@ void add_person(FigureFolder& folder, const Person& person, const geometry::Land
     const auto stem = [&](const char* what) { return person.role + "_" + what; };
     const Point centre_mm = centre_of(person.neutral.grid, request.bridged);
 
-    std::vector<std::uint32_t> kept;
+    std::vector<std::uint32_t> kept, kept_animated;
     Mesh neutral = geometry::to_mesh(person.neutral.grid, request.bridged, &kept);
-    Mesh animated = animation::to_mesh(person.animated, person.neutral, {.bridged = request.bridged});
+    Mesh animated = animation::to_mesh(person.animated, person.neutral, {.bridged = request.bridged}, &kept_animated);
     if (person.scored) {
         neutral.attributes.push_back(distance_attribute(*person.scored, person.neutral.grid.vertices_mm, kept));
         animated.attributes.push_back(
-            distance_attribute(*person.scored, moved_vertices(person.neutral.grid, person.animated), kept));
+            distance_attribute(*person.scored, moved_vertices(person.neutral.grid, person.animated), kept_animated));
     }
     io::write_mesh(folder.file(stem("neutral.ply")), neutral);
     io::write_mesh(folder.file(stem("animated.ply")), animated);

@@ -107,6 +107,20 @@ TEST_F(DenseField, a_dense_model_fades_to_nothing_beyond_the_face) {
     EXPECT_GT(most, 3.0);  // half of the smile
 }
 
+TEST_F(DenseField, one_side_of_a_smile_leaves_the_other_corner_still) {
+    const auto dense = smile(dense_options(), "12L");
+    const auto field = dense_field(PreparedTarget(target_->neutral), *dense.dense);
+    const auto largest_near = [&](const char* mark) {
+        const Point& at = target_->neutral.landmarks.position_mm(mark);
+        double largest = 0;
+        for (std::size_t v = 0; v < field.size(); ++v)
+            if ((target_->neutral.grid.vertices_mm[v] - at).norm() < 8) largest = std::max(largest, field.mm[v].norm());
+        return largest;
+    };
+    EXPECT_GT(largest_near("mouth_corner_left"), 3.0);
+    EXPECT_LT(largest_near("mouth_corner_right"), 0.05);
+}
+
 TEST_F(DenseField, surface_between_lips_that_part_is_torn_and_else_whole) {
     using preprocessing::LipSide;
     const std::vector<LipSide> sides = {LipSide::upper, LipSide::lower, LipSide::neither};
