@@ -13,7 +13,8 @@ namespace mimik::animation {
 constexpr double rim_fade_mm = 30.0;
 
 /// A dense motion at magnitude 1 on the neutral surface of a target, in the target's frame. The template is bent on to
-/// the target once, and kept with it; a vertex takes the motion of the template's point that lies nearest.
+/// the target when this registration first asks, and kept with it; a vertex takes the motion of the template's point
+/// that lies nearest.
 /// @throws InputError, NumericalError if the template does not fit on the target.
 [[nodiscard]] geometry::DisplacementField dense_field(const PreparedTarget& target,
                                                       const modeling::TemplateMotion& dense);

@@ -8,7 +8,8 @@
 
 namespace mimik::animation {
 
-/// Control points and thin-plate splines: the thesis's way, and what grew out of it. The options say which.
+/// Models of an expression (modeling/expression_model.h): control points and thin-plate splines, the thesis's way, or
+/// a template's dense motion. The options say which.
 class ModelMethod : public Method {
 public:
     struct Setting {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -189,7 +190,7 @@ void print_json(const Arguments& arguments, const std::string& target, const Cho
                                {"remarks", chosen.remarks},
                                {"failures", chosen.failures},
                                {"output", arguments.output}};
-    if (const auto values = animation::vertex_values_file(arguments.output); !values.empty())
+    if (const auto values = animation::vertex_values_file(arguments.output); arguments.mesh.empty() && !values.empty())
         document["vertex_values"] = values.string();
     std::cout << io::json_text(document);
 }
@@ -246,18 +247,33 @@ std::size_t torn_faces(const geometry::Mesh& mesh, const animation::AnimatedFace
     return torn;
 }
 
+/// Whoever the mesh shows, by what it says of itself, is heeded in what is made of it, too.
+void carry_origin(const Arguments& arguments, io::MadeBy& made_by) {
+    const std::array files = {arguments.mesh, arguments.landmarks};
+    for (auto& [key, value] : database::said_in_files(database::origin_to_carry(files))) {
+        const auto said =
+            std::find_if(made_by.begin(), made_by.end(), [&](const auto& entry) { return entry.first == key; });
+        if (said == made_by.end())
+            made_by.emplace_back(key, value);
+        else if (key == "subjects")
+            said->second += " " + value;
+    }
+}
+
 /// Anybody's mesh: its own vertices, faces, texture coordinates and attributes, moved.
 int animate_own_mesh(const Arguments& arguments, const preprocessing::Workspace& workspace, Chosen& chosen) {
     for (const auto& file : {arguments.mesh, arguments.landmarks}) database::refuse_hidden_file(file);
     refuse_range_scan(arguments.mesh);
-    auto file = io::read_mesh_file(arguments.mesh);
+    auto file =
+        io::read_mesh_file(arguments.mesh, io::LengthUnit::millimetre, io::MeshParts::all, io::BadTexture::report);
+    auto& remarks = chosen.remarks;
+    remarks.insert(remarks.end(), file.remarks.begin(), file.remarks.end());
     const auto landmarks = io::read_landmarks(arguments.landmarks, file.mesh.vertices_mm);
     animation::AnimatedFace animated;
     file.mesh = naming_any({arguments.landmarks, arguments.mesh}, [&] {
         return animation::animate_mesh(file.mesh, landmarks, workspace.average(), chosen.weighted(),
                                        arguments.method.animation_options(), &animated);
     });
-    auto& remarks = chosen.remarks;
     remarks.insert(remarks.end(), animated.remarks.begin(), animated.remarks.end());
     if (const auto torn = torn_faces(file.mesh, animated); torn > 0)
         remarks.push_back(fmt::format("{} of {} join lips that part, and are stretched: cut the mesh along its lips",
@@ -265,11 +281,16 @@ int animate_own_mesh(const Arguments& arguments, const preprocessing::Workspace&
     const auto output = base::where_links_lead(arguments.output);
     io::MeshWriteOptions options;
     options.made_by = made_by(arguments, workspace, arguments.mesh.filename().string(), "", chosen);
+    carry_origin(arguments, options.made_by);
     options.frame = file.frame;
     if (!file.texture_error.empty()) remarks.push_back(file.texture_error);
-    io::copy_textures(
-        file, arguments.mesh, output, [](const std::filesystem::path& image) { database::refuse_hidden_file(image); },
-        options, remarks);
+    if (io::takes_texture(output))
+        io::copy_textures(
+            file, arguments.mesh, output,
+            [](const std::filesystem::path& image) { database::refuse_hidden_file(image); }, options, remarks);
+    else if (!file.texture_files.empty())
+        remarks.push_back(fmt::format(
+            "{}: the format names no image, so the texture is left out; .ply and .obj keep it", arguments.output));
     for (auto& remark : io::write_mesh(output, file.mesh, options)) remarks.push_back(std::move(remark));
     return report(arguments, arguments.mesh.string(), chosen, animated.extent);
 }
@@ -281,6 +302,11 @@ void check_target(const Arguments& arguments) {
             "--target: is missing (Subject whose first neutral face is animated); give it, or --mesh and --landmarks");
     if (!arguments.target.empty() && !arguments.mesh.empty())
         throw InputError("--mesh: --target names a face, too; give one of them");
+    const auto extension = base::lower_case(std::filesystem::path(arguments.output).extension().string());
+    if (!arguments.mesh.empty() && extension != ".ply" && extension != ".obj" && extension != ".vtp" &&
+        extension != ".stl")
+        throw InputError(fmt::format("{}: a mesh of your own is written as .ply, .obj, .vtp or .stl, not '{}'",
+                                     arguments.output, extension));
     if (!arguments.mesh.empty() &&
         (!arguments.hold.empty() || arguments.keep_bridged || arguments.arkit_names || arguments.frame != "scanner"))
         throw InputError(

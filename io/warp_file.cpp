@@ -43,10 +43,6 @@ struct WarpInput {
     std::vector<std::string> names;
 };
 
-bool takes_texture(const std::filesystem::path& output) {
-    return !is_csv(output) && (mesh_format(output) == MeshFormat::ply || mesh_format(output) == MeshFormat::obj);
-}
-
 WarpInput read_input(const std::filesystem::path& input) {
     if (!is_csv(input)) {
         WarpInput mesh = {read_mesh_file(input, LengthUnit::millimetre, MeshParts::all, BadTexture::report), {}};
@@ -80,6 +76,10 @@ std::string checked_image(const std::filesystem::path& image, const std::filesys
 }
 
 }  // namespace
+
+bool takes_texture(const std::filesystem::path& output) {
+    return !is_csv(output) && (mesh_format(output) == MeshFormat::ply || mesh_format(output) == MeshFormat::obj);
+}
 
 void copy_textures(MeshFile& file, const std::filesystem::path& input, const std::filesystem::path& output,
                    const CheckTexture& check_texture, MeshWriteOptions& options, std::vector<std::string>& remarks) {

@@ -62,6 +62,9 @@ WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::p
                      const std::function<void(const std::filesystem::path&)>& check_texture = {},
                      const WarpFileOptions& more = {});
 
+/// Whether a mesh of this format can name an image.
+[[nodiscard]] bool takes_texture(const std::filesystem::path& output);
+
 /// Copies the images that a mesh names beside an output face.ply or face.obj, as face_texture.<ext>,
 /// face_texture_2.<ext>, ..., so that no other of their names is taken for them, and lets `options` name the copies.
 /// What cannot be handed on is told in `remarks`. @param check_texture  as of warp_file

@@ -68,7 +68,7 @@ static_assert(base::lists_every_field<NonrigidFitOptions>());
 
 struct NonrigidFit {
     std::vector<geometry::Point> vertices_mm;
-    std::vector<double> residual_mm;  ///< per vertex: distance to the surface; infinite without a pair
+    std::vector<double> residual_mm;  ///< per vertex: distance to the surface, whether the pair is sound or not
     geometry::VertexMask matched;     ///< per vertex: its last pair was sound
     double matched_share = 0.0;
     double residual_rms_mm = 0.0;  ///< of the matched vertices

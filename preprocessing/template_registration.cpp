@@ -22,8 +22,19 @@ void TemplateRegistrationOptions::check() const {
     expressive.check();
     if (!(landmark_smoothing >= 0))
         throw InputError(fmt::format("landmark_smoothing is {}; give 0 or more", landmark_smoothing));
-    for (const double length : {still_around_mm, still_within_mm, still_off_marks_mm, still_spacing_mm})
-        if (!(length > 0)) throw InputError(fmt::format("a length of stillness is {}; give more than 0", length));
+    const auto above_zero = [](const char* name, double value) {
+        if (!(value > 0)) throw InputError(fmt::format("{} is {}; give more than 0", name, value));
+    };
+    above_zero("still_around_mm", still_around_mm);
+    above_zero("still_within_mm", still_within_mm);
+    above_zero("still_off_marks_mm", still_off_marks_mm);
+    above_zero("still_doubt_mm", still_doubt_mm);
+    above_zero("still_spacing_mm", still_spacing_mm);
+    above_zero("far_stillness", far_stillness);
+    if (!(far_from_mm >= 0 && far_to_mm > far_from_mm))
+        throw InputError(fmt::format("stillness rises from {} to {} mm; give a farther end", far_from_mm, far_to_mm));
+    if (!(least_matched >= 0 && least_matched <= 1))
+        throw InputError(fmt::format("least_matched is {}; give a share from 0 to 1", least_matched));
     if (!(still_motion_mm >= 0))
         throw InputError(fmt::format("still_motion_mm is {}; give 0 or more", still_motion_mm));
 }
@@ -90,6 +101,15 @@ std::vector<Point> TemplateRegistration::start(const geometry::Landmarks& from, 
     return start;
 }
 
+/// @throws NumericalError if too little of the template lies on the surface for the rest to be believed.
+void TemplateRegistration::judge(const NonrigidFit& fit) const {
+    if (fit.matched_share < options_.least_matched)
+        throw NumericalError(fmt::format(
+            "only {:.0f} % of the template lie on the scan, {:.0f} % are needed: is this a face in mm, and are its "
+            "landmarks at their places?",
+            100 * fit.matched_share, 100 * options_.least_matched));
+}
+
 std::vector<FitMark> TemplateRegistration::marks(const geometry::Landmarks& landmarks) const {
     std::vector<FitMark> marks;
     for (const auto& bound : template_.landmarks)
@@ -105,6 +125,7 @@ RegisteredTemplate TemplateRegistration::neutral(const Face& face) const {
 RegisteredTemplate TemplateRegistration::neutral(const FitTarget& surface, const geometry::Landmarks& landmarks) const {
     const auto begin = start(template_.surface.landmarks, landmarks, {}, template_.surface.vertices_mm);
     auto fit = fitter_.fit(begin, surface, marks(landmarks), options_.neutral, {.on_rim = lip_rims_});
+    judge(fit);
     return {std::move(fit.vertices_mm), std::move(fit.matched), fit.matched_share, fit.residual_rms_mm};
 }
 
@@ -130,14 +151,12 @@ std::vector<Point> still_points(std::span<const Point> vertices_mm, std::span<co
         const Point& p = vertices_mm[v];
         const auto near = [&](const Point& q, double mm) { return (p - q).squaredNorm() < mm * mm; };
         bool holds = true, doubtful = false;
-        for (const auto& mark : marks)
-            doubtful = doubtful || ((mark.target_mm - mark.source_mm).norm() > moved_mark_mm &&
-                                    near(mark.source_mm, options.still_doubt_mm));
         for (const auto& other : still) holds = holds && !near(other, options.still_spacing_mm);
-        for (const auto& mark : marks)
-            holds = holds && !((mark.target_mm - mark.source_mm).norm() > moved_mark_mm &&
-                               near(mark.source_mm, options.still_off_marks_mm));
-        if (!holds) continue;
+        for (const auto& mark : marks) {
+            if ((mark.target_mm - mark.source_mm).norm() <= moved_mark_mm) continue;
+            holds = holds && !near(mark.source_mm, options.still_off_marks_mm);
+            doubtful = doubtful || near(mark.source_mm, options.still_doubt_mm);
+        }
         if (!holds) continue;
         Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
         const auto around = index.within(p, options.still_around_mm);
@@ -181,8 +200,9 @@ RegisteredMotion TemplateRegistration::motion(const Face& neutral, const Registe
     const auto still = still_points(registered.vertices_mm, template_.surface.triangles, surface, marked, options_);
     const auto begin = start(neutral_marks, expressive_marks, still, registered.vertices_mm);
     const auto holding = stillness(registered.vertices_mm, marked, options_);
-    const auto fit = fitter_.fit(begin, surface, marks(expressive_marks), options_.expressive,
-                                 {.rest_mm = registered.vertices_mm, .stillness = holding, .on_rim = lip_rims_});
+    auto fit = fitter_.fit(begin, surface, marks(expressive_marks), options_.expressive,
+                           {.rest_mm = registered.vertices_mm, .stillness = holding, .on_rim = lip_rims_});
+    judge(fit);
 
     RegisteredMotion motion{{}, std::move(fit.matched), still.size(), fit.matched_share, fit.residual_rms_mm};
     const double noise2 = options_.still_motion_mm * options_.still_motion_mm;

@@ -24,6 +24,8 @@ struct TemplateRegistrationOptions {
     double still_motion_mm = 0.4;   ///< motion d becomes d d^2 / (d^2 + this^2): what is noise goes
     /// Stillness rises to so many times its weight between these distances from the landmarks that moved.
     double far_from_mm = 20.0, far_to_mm = 45.0, far_stillness = 12.0;
+    /// A fit with fewer of the template's vertices on the scan is refused. Faces of three worlds have 0.88 and more.
+    double least_matched = 0.5;
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
@@ -39,6 +41,7 @@ struct TemplateRegistrationOptions {
         visit("far_from_mm", self.far_from_mm);
         visit("far_to_mm", self.far_to_mm);
         visit("far_stillness", self.far_stillness);
+        visit("least_matched", self.least_matched);
         visit("still_motion_mm", self.still_motion_mm);
     }
     void check() const;
@@ -67,15 +70,17 @@ class TemplateRegistration {
 public:
     explicit TemplateRegistration(FaceTemplate face_template, const TemplateRegistrationOptions& options = {});
     [[nodiscard]] const FaceTemplate& face_template() const { return template_; }
-    /// On to a neutral scan. @throws InputError, NumericalError if there is no correspondence.
+    /// On to a neutral scan. @throws NumericalError if less than `least_matched` of the template
+    /// comes to lie on the scan; InputError if it has no surface.
     [[nodiscard]] RegisteredTemplate neutral(const Face& face) const;
     /// On to anybody's surface. @param landmarks  same frame, of which the size is about that of the average face
     [[nodiscard]] RegisteredTemplate neutral(const FitTarget& surface, const geometry::Landmarks& landmarks) const;
-    /// From there on to an expressive scan of the same subject.
+    /// From there on to an expressive scan of the same subject. @throws as neutral().
     [[nodiscard]] RegisteredMotion motion(const Face& neutral, const RegisteredTemplate& registered,
                                           const Face& expressive) const;
 
 private:
+    void judge(const NonrigidFit& fit) const;
     [[nodiscard]] std::vector<FitMark> marks(const geometry::Landmarks& landmarks) const;
     [[nodiscard]] std::vector<geometry::Point> start(const geometry::Landmarks& from, const geometry::Landmarks& to,
                                                      std::span<const geometry::Point> still_mm,

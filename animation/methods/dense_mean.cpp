@@ -2,7 +2,7 @@
 
 namespace mimik::animation::methods {
 
-/// The same, learned from the mean of all others.
+/// As dense, learned from the mean of all others.
 MethodPointer dense_mean_method() {
     modeling::ModelOptions model;
     model.correspondence = modeling::Correspondence::dense;

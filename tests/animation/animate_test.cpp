@@ -17,6 +17,7 @@
 #include "geometry/face_axes.h"
 #include "io/image.h"
 #include "io/mesh_io.h"
+#include "tests/animation/analytic_smile.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
 #include "tests/support/dense_spline.h"
@@ -31,49 +32,7 @@ using geometry::Vector;
 using modeling::ExpressionModel;
 using testing::HasSubstr;
 
-class Animate : public testing::Test {
-protected:
-    static void SetUpTestSuite() {
-        average_ = new preprocessing::AverageFace(test::analytic_average());
-        source_ = new test::AnalyticSubject(test::analytic_subject(*average_, 1.0, 6.0));
-        target_ = new test::AnalyticSubject(test::analytic_subject(*average_, 1.1, 6.0));
-    }
-    static void TearDownTestSuite() {
-        delete target_;
-        delete source_;
-        delete average_;
-    }
-    static ExpressionModel smile(const modeling::ModelOptions& options = {}, const std::string& code = "12") {
-        return modeling::measure_expression(facs::builtin_catalogue(), test::expression(code), *average_,
-                                            source_->neutral, source_->smiling, options);
-    }
-    /// Mean distance of the animated lower face to the true smile, in the head frame of the closed form.
-    static double smile_error_mm(const AnimatedFace& animated, const preprocessing::Face& neutral, double scale,
-                                 double smile_mm) {
-        const test::AnalyticFace truth{scale, smile_mm};
-        const geometry::Transform scan_from_head =
-            preprocessing::rigid_by_landmarks(test::AnalyticFace{scale}.landmarks(), neutral.landmarks);
-        double sum = 0;
-        int count = 0;
-        for (std::size_t v = 0; v < neutral.grid.size(); ++v) {
-            if (!neutral.grid.measured(v)) continue;
-            const Point moved = neutral.grid.vertices_mm[v] + animated.field.mm[v];
-            const Point rest = scan_from_head.inverse() * neutral.grid.vertices_mm[v] / scale;
-            if (std::abs(std::abs(rest.x()) - 25) > 15 || std::abs(rest.y() + 31.5) > 15) continue;
-            sum += (scan_from_head.inverse() * moved - truth.point(rest.x(), rest.y())).norm();
-            ++count;
-        }
-        return sum / count;
-    }
-
-    static preprocessing::AverageFace* average_;
-    static test::AnalyticSubject* source_;
-    static test::AnalyticSubject* target_;
-};
-
-preprocessing::AverageFace* Animate::average_ = nullptr;
-test::AnalyticSubject* Animate::source_ = nullptr;
-test::AnalyticSubject* Animate::target_ = nullptr;
+class Animate : public AnalyticSmile {};
 
 TEST_F(Animate, the_average_face_is_called_so) {
     auto average = target_->neutral;

@@ -92,9 +92,18 @@ TEST_F(Registration, follows_a_smile_and_leaves_the_forehead_alone) {
     EXPECT_LT(forehead / above, 0.05);
 }
 
+TEST_F(Registration, refuses_a_surface_that_is_not_where_the_landmarks_are) {
+    auto face = subject_->neutral;
+    for (auto& p : face.grid.vertices_mm) p.z() += 50;  // the landmarks stay: every pair is too far apart
+    EXPECT_THROW((void)registration_->neutral(face), NumericalError);
+}
+
 TEST_F(Registration, refuses_options_that_are_of_no_use) {
     TemplateRegistrationOptions options;
     options.still_around_mm = 0;
+    EXPECT_THROW(TemplateRegistration(registration_->face_template(), options), InputError);
+    options = {};
+    options.far_to_mm = options.far_from_mm;
     EXPECT_THROW(TemplateRegistration(registration_->face_template(), options), InputError);
     options = {};
     options.expressive.steps = 0;
