@@ -8,7 +8,7 @@ namespace mimik::animation {
 using geometry::Point;
 using geometry::Vector;
 using modeling::Normalisation;
-using preprocessing::TemplateRegistration;
+using preprocessing::KeptRegistrations;
 
 namespace {
 
@@ -30,26 +30,36 @@ double faded(double beyond_mm) {
     return t * t * (3.0 - 2.0 * t);
 }
 
-TemplatePlaces locate(const PreparedTarget& target, const TemplateRegistration& registration) {
+/// The template on the target, average frame: a scan's is kept with its workspace.
+std::vector<Point> bent_on_to(const PreparedTarget& target, const KeptRegistrations& registrations) {
+    if (const auto* face = target.face()) return registrations.neutral(*face).vertices_mm;
     const auto& normalised = target.normalised(Normalisation::similarity);
     const auto& surface = target.surface();
     std::vector<geometry::Triangle> measured;
     for (const auto& t : surface.triangles)
         if (surface.measured[t[0]] && surface.measured[t[1]] && surface.measured[t[2]]) measured.push_back(t);
-    std::vector<Point> vertices = normalised.vertices_mm, present;
+    auto vertices = normalised.vertices_mm;
+    for (std::size_t v = 0; v < surface.size(); ++v)
+        if (!surface.present[v]) vertices[v] = Point::Zero();
+    return registrations.registration()
+        .neutral(preprocessing::FitTarget(vertices, measured), normalised.landmarks)
+        .vertices_mm;
+}
+
+TemplatePlaces locate(const PreparedTarget& target, const KeptRegistrations& registrations) {
+    const auto& vertices = target.normalised(Normalisation::similarity).vertices_mm;
+    const auto& surface = target.surface();
+    std::vector<Point> present;
     TemplatePlaces places;
     for (std::uint32_t v = 0; v < surface.size(); ++v) {
-        if (!surface.present[v]) {
-            vertices[v] = Point::Zero();
-            continue;
-        }
+        if (!surface.present[v]) continue;
         places.of_vertices.emplace_back().vertex = v;
         present.push_back(vertices[v]);
     }
-    const auto bent = registration.neutral(preprocessing::FitTarget(vertices, measured), normalised.landmarks);
-    const geometry::SurfaceIndex index(bent.vertices_mm, registration.face_template().surface.triangles);
+    const auto& face_template = registrations.face_template();
+    const geometry::SurfaceIndex index(bent_on_to(target, registrations), face_template.surface.triangles);
     const auto hits = index.closest(present);
-    const auto side_of = preprocessing::lip_sides(registration.face_template());
+    const auto side_of = preprocessing::lip_sides(face_template);
     places.lip_sides.assign(surface.size(), preprocessing::LipSide::neither);
     for (std::size_t k = 0; k < hits.size(); ++k) {
         auto& place = places.of_vertices[k];
@@ -63,8 +73,8 @@ TemplatePlaces locate(const PreparedTarget& target, const TemplateRegistration& 
 
 /// Kept with the target, which outlives what is made of it here.
 const TemplatePlaces& places_on(const PreparedTarget& target, const modeling::TemplateMotion& dense) {
-    const auto kept = target.kept(dense.registration, [&]() -> std::shared_ptr<const void> {
-        return std::make_shared<const TemplatePlaces>(locate(target, *dense.registration));
+    const auto kept = target.kept(dense.registrations, [&]() -> std::shared_ptr<const void> {
+        return std::make_shared<const TemplatePlaces>(locate(target, *dense.registrations));
     });
     return *static_cast<const TemplatePlaces*>(kept.get());
 }

@@ -11,6 +11,7 @@
 #include "geometry/face_surface.h"
 #include "modeling/performance.h"
 #include "preprocessing/average_face.h"
+#include "preprocessing/kept_registrations.h"
 
 namespace mimik::animation {
 
@@ -55,6 +56,8 @@ struct LearningTask {
     const facs::Expression& expression;
     const preprocessing::AverageFace& average;
     const facs::FacsCatalogue& catalogue;
+    /// The average face's template on faces, for those who follow every vertex; none: each makes them anew.
+    std::shared_ptr<const preprocessing::KeptRegistrations> registrations = nullptr;
 };
 
 /// How an expression of some is put on the face of another. A new one is one file: docs/algorithms/methods.md.

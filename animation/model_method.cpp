@@ -50,7 +50,7 @@ private:
 class ModelLearner : public Learner {
 public:
     ModelLearner(const LearningTask& task, const ModelMethod::Setting& setting)
-        : setting_(setting), gauge_(task.catalogue, task.expression, task.average, setting.model) {}
+        : setting_(setting), gauge_(task.catalogue, task.expression, task.average, setting.model, task.registrations) {}
 
     [[nodiscard]] LessonPointer study(const modeling::Performance& performance) const override {
         return std::make_shared<const ModelLesson>(gauge_.measure(performance.neutral, performance.expressive));

@@ -40,6 +40,7 @@ geometry::Vector MaterialPoints::at(const std::vector<geometry::Vector>& field_m
 
 struct PreparedTarget::Parts {
     std::string name;
+    std::optional<preprocessing::Face> face;
     geometry::FaceSurface surface;
     Landmarks snapped_landmarks;
     std::array<std::optional<geometry::Transform>, 2> average_from_target;  // by Normalisation
@@ -84,6 +85,7 @@ struct PreparedTarget::Parts {
 PreparedTarget::PreparedTarget(const preprocessing::Face& neutral, const database::TrueScan* truth)
     : parts_(std::make_unique<Parts>()) {
     parts_->name = neutral.id.subject.empty() ? "the average face" : neutral.id.name();
+    parts_->face = neutral;
     parts_->surface = geometry::face_surface(neutral.grid, neutral.landmarks);
     parts_->snapped_landmarks = neutral.snapped_landmarks;
     parts_->average_from_target = {modeling::average_from_scan(neutral, Normalisation::similarity),
@@ -111,6 +113,7 @@ PreparedTarget::~PreparedTarget() = default;
 PreparedTarget::PreparedTarget(PreparedTarget&&) noexcept = default;
 
 const std::string& PreparedTarget::name() const { return parts_->name; }
+const preprocessing::Face* PreparedTarget::face() const { return parts_->face ? &*parts_->face : nullptr; }
 const geometry::FaceSurface& PreparedTarget::surface() const { return parts_->surface; }
 bool PreparedTarget::has_truth() const { return parts_->truth != nullptr; }
 

@@ -49,6 +49,7 @@ public:
     PreparedTarget(PreparedTarget&&) noexcept;
 
     [[nodiscard]] const std::string& name() const;
+    [[nodiscard]] const preprocessing::Face* face() const;       ///< the preprocessed scan; null: somebody's mesh
     [[nodiscard]] const geometry::FaceSurface& surface() const;  ///< the neutral face, in its own frame
     [[nodiscard]] const geometry::Transform& average_from_target(modeling::Normalisation normalisation) const;
     [[nodiscard]] const NormalisedTarget& normalised(modeling::Normalisation normalisation) const;

@@ -63,7 +63,8 @@ private:
         std::vector<ScanId> performances;
         for (const auto& id : planned.performances)
             if (usable_.contains(id.subject)) performances.push_back(id);
-        const animation::LearningTask task{planned.expression, reader_.workspace().average(), catalogue_};
+        const animation::LearningTask task{planned.expression, reader_.workspace().average(), catalogue_,
+                                           reader_.workspace().registrations()};
         const auto cast = gather_cast(reader_, task, performances, plan_.methods, failures_);
         const auto& code = planned.expression.code();
         const std::size_t count = cast.participants.size();

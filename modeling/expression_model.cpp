@@ -32,8 +32,14 @@ const geometry::Transform& average_from_scan(const Face& face, Normalisation nor
     return normalisation == Normalisation::affine ? face.average_from_scan_affine : face.average_from_scan;
 }
 
-ModelOptions ModelOptions::thesis() {
+ModelOptions ModelOptions::sparse() {
     ModelOptions options;
+    options.correspondence = Correspondence::sparse;
+    return options;
+}
+
+ModelOptions ModelOptions::thesis() {
+    auto options = sparse();
     options.normalisation = Normalisation::affine;
     options.kernel = geometry::SplineKernel::r2_log_r2;
     options.smoothing = 0.0;
@@ -116,7 +122,7 @@ void keep_side(TemplateMotion& dense, const facs::Expression& expression) {
         if (unit.side != side) return;
     if (side == facs::Side::both) return;
     const double sign = side == facs::Side::left ? 1.0 : -1.0;
-    const auto& rest_mm = dense.registration->face_template().surface.vertices_mm;
+    const auto& rest_mm = dense.face_template().surface.vertices_mm;
     for (std::size_t v = 0; v < rest_mm.size(); ++v) {
         const double t = std::clamp(0.5 + sign * rest_mm[v].x() / blend_mm, 0.0, 1.0);
         dense.motion_mm[v] *= t * t * (3.0 - 2.0 * t);
@@ -126,7 +132,8 @@ void keep_side(TemplateMotion& dense, const facs::Expression& expression) {
 }  // namespace
 
 ExpressionGauge::ExpressionGauge(const facs::FacsCatalogue& catalogue, const facs::Expression& expression,
-                                 const AverageFace& average, const ModelOptions& options)
+                                 const AverageFace& average, const ModelOptions& options,
+                                 std::shared_ptr<const preprocessing::KeptRegistrations> registrations)
     : catalogue_(catalogue), average_(average), expression_(expression), options_(options) {
     options_.check();
     const auto units = catalogue.units(expression);
@@ -143,9 +150,11 @@ ExpressionGauge::ExpressionGauge(const facs::FacsCatalogue& catalogue, const fac
         for (const auto& sided : units)
             if (crosses_border(sided, average.landmarks)) begun_.moves_upper_face = begun_.moves_lower_face = true;
     begun_.normalisation = options_.normalisation;
-    if (options_.correspondence == Correspondence::dense)
-        registration_ =
-            std::make_shared<const preprocessing::TemplateRegistration>(preprocessing::build_face_template(average));
+    if (options_.correspondence == Correspondence::dense) {
+        registrations_ = registrations ? std::move(registrations)
+                                       : std::make_shared<const preprocessing::KeptRegistrations>(average);
+        (void)registrations_->registration();  // an average face without a mouth is found out now
+    }
     if (!options_.place_on_average) return;
     const geometry::SurfaceIndex surface(average.grid.vertices_mm, geometry::triangles(average.grid));
     on_average_ = place_controls(catalogue, expression, average.landmarks, surface, placed_kinds(options_));
@@ -223,9 +232,8 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     }
     for (const auto& anchor : placed.anchors)
         model.points.push_back({anchor.name, facs::ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
-    if (registration_) {
-        model.dense = {registration_,
-                       registration_->motion(neutral, registration_->neutral(neutral), expressive).motion_mm};
+    if (registrations_) {
+        model.dense = {registrations_, registrations_->motion(neutral, expressive).motion_mm};
         if (expressive.id.side() == facs::Side::both) keep_side(*model.dense, expression_);
     }
     return model;
@@ -233,8 +241,10 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
 
 ExpressionModel measure_expression(const facs::FacsCatalogue& catalogue, const facs::Expression& expression,
                                    const AverageFace& average, const Face& neutral, const Face& expressive,
-                                   const ModelOptions& options, std::vector<FollowedPoint>* followed) {
-    return ExpressionGauge(catalogue, expression, average, options).measure(neutral, expressive, followed);
+                                   const ModelOptions& options, std::vector<FollowedPoint>* followed,
+                                   std::shared_ptr<const preprocessing::KeptRegistrations> registrations) {
+    return ExpressionGauge(catalogue, expression, average, options, std::move(registrations))
+        .measure(neutral, expressive, followed);
 }
 
 void ExpressionMean::add(const ExpressionModel& model) {

@@ -41,7 +41,7 @@ enum class Correspondence {
 }
 
 struct ModelOptions {
-    Correspondence correspondence = Correspondence::sparse;
+    Correspondence correspondence = Correspondence::dense;
     Normalisation normalisation = Normalisation::similarity;
     geometry::SplineKernel kernel = geometry::SplineKernel::r;
     /// Of the landmark splines, unit of the kernel. Landmarks are marked to 0.5-1 mm only, and of 0, 10, 30 mm the last
@@ -65,6 +65,8 @@ struct ModelOptions {
         visit("snap_to_vertices", self.snap_to_vertices);
         visit("place_on_average", self.place_on_average);
     }
+    /// Control points alone, as they measured best.
+    [[nodiscard]] static ModelOptions sparse();
     /// The thesis as printed: affine frame, r^2 ln r^2, no anchors, muscle and wrinkle points, nearest vertices.
     [[nodiscard]] static ModelOptions thesis();
     [[nodiscard]] bool operator==(const ModelOptions&) const = default;
@@ -130,10 +132,14 @@ struct FollowedPoint {
 class ExpressionGauge {
 public:
     /// @param expression  what the scans show, or one side of it.
+    /// @param registrations  of this average face, for dense models: Workspace::registrations(); none: made anew, kept
+    /// nowhere
     /// @throws InputError if landmarks are missing or a unit of the expression is not in the catalogue.
     ExpressionGauge(const facs::FacsCatalogue& catalogue, const facs::Expression& expression,
-                    const preprocessing::AverageFace& average, const ModelOptions& options = {});
-    /// From any thread. @throws InputError if landmarks are missing; NumericalError from the spline.
+                    const preprocessing::AverageFace& average, const ModelOptions& options = {},
+                    std::shared_ptr<const preprocessing::KeptRegistrations> registrations = nullptr);
+    /// From any thread. @throws InputError if landmarks are missing; NumericalError from the spline or of a scan that
+    /// the template does not come to lie on.
     [[nodiscard]] ExpressionModel measure(const preprocessing::Face& neutral, const preprocessing::Face& expressive,
                                           std::vector<FollowedPoint>* followed = nullptr) const;
 
@@ -143,7 +149,7 @@ private:
     facs::Expression expression_;
     ModelOptions options_;
     ExpressionModel begun_;  ///< what every model of this expression has
-    std::shared_ptr<const preprocessing::TemplateRegistration> registration_;  ///< of a dense model
+    std::shared_ptr<const preprocessing::KeptRegistrations> registrations_;  ///< of a dense model
     PlacedControls on_average_;  ///< empty if the controls are placed on each source itself
 };
 
@@ -151,7 +157,8 @@ private:
 [[nodiscard]] ExpressionModel measure_expression(
     const facs::FacsCatalogue& catalogue, const facs::Expression& expression, const preprocessing::AverageFace& average,
     const preprocessing::Face& neutral, const preprocessing::Face& expressive, const ModelOptions& options = {},
-    std::vector<FollowedPoint>* followed = nullptr);
+    std::vector<FollowedPoint>* followed = nullptr,
+    std::shared_ptr<const preprocessing::KeptRegistrations> registrations = nullptr);
 
 /// Source-independent AU (thesis 7.2): mean displacement of every point over models that stand on the average face, one
 /// after another; holds their sum alone. A point that a model left out is averaged over the rest.

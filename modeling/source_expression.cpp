@@ -70,9 +70,9 @@ ExpressionModel model_from_workspace(const Workspace& workspace, const facs::Fac
     if (source.subject != "mean")
         return measure_expression(catalogue, expression, workspace.average(),
                                   workspace.face(workspace.neutral(source.subject)), workspace.face(ids.front()),
-                                  options);
+                                  options, nullptr, workspace.registrations());
 
-    const ExpressionGauge gauge(catalogue, expression, workspace.average(), options);
+    const ExpressionGauge gauge(catalogue, expression, workspace.average(), options, workspace.registrations());
     ExpressionMean sum;
     std::vector<std::string> faults;
     bool any = false;

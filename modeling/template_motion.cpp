@@ -77,7 +77,7 @@ FaceTemplate template_from_json(const json& document) {
 }  // namespace
 
 json template_motion_to_json(const TemplateMotion& dense) {
-    const auto& made = dense.registration->face_template();
+    const auto& made = dense.face_template();
     auto triangles = json::array(), bound = json::array();
     for (const auto& triangle : made.surface.triangles) triangles.push_back(triangle);
     for (const auto& mark : made.landmarks)
@@ -101,7 +101,7 @@ TemplateMotion template_motion_from_json(const json& document) {
     if (dense.motion_mm.size() != made.size())
         throw InputError(
             fmt::format("motion_mm has {} vectors, the template {} vertices", dense.motion_mm.size(), made.size()));
-    dense.registration = std::make_shared<const preprocessing::TemplateRegistration>(std::move(made));
+    dense.registrations = std::make_shared<const preprocessing::KeptRegistrations>(std::move(made));
     return dense;
 }
 

@@ -4,15 +4,19 @@
 #include <vector>
 
 #include "geometry/types.h"
-#include "preprocessing/template_registration.h"
+#include "preprocessing/kept_registrations.h"
 
 namespace mimik::modeling {
 
 /// The motion of an expression on every vertex of a template: dense correspondence.
 struct TemplateMotion {
-    /// Bends the template on to a face that is to be animated. Models of one gauge share it.
-    std::shared_ptr<const preprocessing::TemplateRegistration> registration;
+    /// The template on the faces it was learned from, and on those that are to be animated. Models of one gauge share
+    /// them.
+    std::shared_ptr<const preprocessing::KeptRegistrations> registrations;
+
     std::vector<geometry::Vector> motion_mm;  ///< per vertex of the template, average frame, at magnitude 1
+
+    [[nodiscard]] const preprocessing::FaceTemplate& face_template() const { return registrations->face_template(); }
 };
 
 }  // namespace mimik::modeling

@@ -61,6 +61,7 @@ Workspace::Workspace(fs::path root) : root_(std::move(root)) {
         for (auto& subject : database::hidden_subjects_of(folder, subjects(), database::KnownSubjects::some).subjects)
             if (!hidden(subject)) list_.hidden_subjects.push_back(std::move(subject));
     average_ = read_average_face(average_stem(root_));
+    registrations_ = std::make_shared<const KeptRegistrations>(average_, registered_folder(root_));
 }
 
 std::vector<std::string> Workspace::subjects() const {
@@ -142,7 +143,7 @@ void remove_half_written(const fs::path& folder) {
 void remove_leftovers(const fs::path& root) {
     for (const auto& folder : {root, average_stem(root).parent_path(), sheets_folder(root)})
         remove_half_written(folder);
-    for (const auto& tree : {faces_folder(root), root / "models"}) {
+    for (const auto& tree : {faces_folder(root), registered_folder(root), root / "models"}) {
         std::error_code error;
         std::vector<fs::path> folders = {tree};
         for (fs::recursive_directory_iterator it(tree, error), end; !error && it != end; it.increment(error))

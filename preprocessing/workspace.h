@@ -12,6 +12,7 @@
 #include "facs/expression.h"
 #include "preprocessing/average_face.h"
 #include "preprocessing/face.h"
+#include "preprocessing/kept_registrations.h"
 
 namespace mimik::preprocessing {
 
@@ -33,6 +34,7 @@ struct WorkspaceList {
 ///   workspace.json               database, whether it has a truth, options, list of faces, hidden subjects (schema 1)
 ///   average/average_face.{ply,json}
 ///   faces/bs000/bs000_N_N_0.{ply,json}
+///   registered/bs000/bs000_N_N_0.{ply,json}   the template on that face, made when somebody needs it
 ///   unallowed_subjects.txt       the hidden subjects, so that a bare file of the workspace is refused too; if any
 /// A subject is hidden if it was hidden when the workspace was made, or stands now in a list of the workspace's or the
 /// database's (database::hidden_subjects_of), if that folder is still there.
@@ -47,6 +49,8 @@ public:
     /// Whether the database had a truth (truth/truth.json) when the workspace was made.
     [[nodiscard]] bool made_with_truth() const { return list_.made_with_truth; }
     [[nodiscard]] const AverageFace& average() const { return average_; }
+    /// The average face's template on the faces of this workspace.
+    [[nodiscard]] const std::shared_ptr<const KeptRegistrations>& registrations() const { return registrations_; }
     [[nodiscard]] const std::vector<database::ScanId>& scans() const { return list_.scans; }
     [[nodiscard]] std::vector<std::string> subjects() const;
     [[nodiscard]] std::vector<std::string> shown_subjects() const;  ///< those who may be shown
@@ -68,6 +72,7 @@ private:
     std::shared_ptr<const base::FolderLock> lock_;
     WorkspaceList list_;
     AverageFace average_;
+    std::shared_ptr<const KeptRegistrations> registrations_;
 };
 
 /// Deletes what a run that was killed left half written. For who holds the folder's lock for writing.

@@ -28,6 +28,10 @@ inline constexpr const char* written_suffixes[] = {".ply", ".json", ".done", ".t
 [[nodiscard]] inline std::filesystem::path average_stem(const std::filesystem::path& root) {
     return root / "average" / "average_face";
 }
+/// Of what KeptRegistrations keeps.
+[[nodiscard]] inline std::filesystem::path registered_folder(const std::filesystem::path& root) {
+    return root / "registered";
+}
 [[nodiscard]] inline std::filesystem::path sheets_folder(const std::filesystem::path& root) { return root / "sheets"; }
 /// A picture, the mark of what it was drawn from, and the folder of its parts while it is drawn.
 inline constexpr const char* sheet_suffixes[] = {".png", ".done", ".parts"};

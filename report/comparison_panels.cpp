@@ -91,7 +91,7 @@ public:
     LearnedMotion(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
                   const animation::Method& method)
         : reader_(workspace), magnitude_(request.magnitude) {
-        const auto learner = method.learner({request.expression, workspace.average(), catalogue});
+        const auto learner = method.learner({request.expression, workspace.average(), catalogue, workspace.registrations()});
         std::vector<animation::LessonPointer> lessons;
         if (method.needs() != animation::SourceKind::none)
             for (const auto& scan :
@@ -435,7 +435,7 @@ Person source_person(const Workspace& workspace, const FacsCatalogue& catalogue,
     auto source = person_with_scan("source", workspace, request.source, scan);
     std::vector<modeling::FollowedPoint> followed;
     model = modeling::measure_expression(catalogue, request.expression, workspace.average(), source.neutral,
-                                         *source.real, request.model, &followed);
+                                         *source.real, request.model, &followed, workspace.registrations());
     for (const auto& point : followed) {
         source.controls.push_back({point.name, point.kind, point.neutral_mm});
         source.real_controls.push_back({point.name, point.kind, source.real->neutral_from_scan * point.expressive_mm});

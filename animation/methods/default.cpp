@@ -2,7 +2,7 @@
 
 namespace mimik::animation::methods {
 
-/// Control points as they measured best from one source: anchors that hold still, kernel r, points that cover the zone.
+/// The skin of one source, followed vertex by vertex of a template: what measured best, most of all on faces of others.
 MethodPointer default_method() {
     return std::make_shared<ModelMethod>(
         ModelMethod::Setting{.name = "default", .needs = SourceKind::one_source, .model = {}, .animation = {}});

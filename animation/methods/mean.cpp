@@ -2,7 +2,7 @@
 
 namespace mimik::animation::methods {
 
-/// The default, learned from the mean of all others on the average face (thesis 7.2, future work).
+/// The default, learned from the mean of all others on the template (thesis 7.2, future work).
 MethodPointer mean_method() {
     return std::make_shared<ModelMethod>(
         ModelMethod::Setting{.name = "mean", .needs = SourceKind::all_but_target, .model = {}, .animation = {}});
