@@ -116,7 +116,7 @@ const Faces& faces() {
 
 modeling::ExpressionModel measured() {
     return modeling::measure_expression(facs::builtin_catalogue(), test::expression("12"), average(), faces().neutral,
-                                        faces().smiling);
+                                        faces().smiling, modeling::ModelOptions::sparse());
 }
 
 /// The target's real expressive scan, in the frame of its neutral.

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_synthesize_command(app, exit_code);
     mimik::cli::add_scans_command(app, exit_code);
     mimik::cli::add_preprocess_command(app, exit_code);
+    mimik::cli::add_register_command(app, exit_code);
     mimik::cli::add_animate_command(app, exit_code);
     mimik::cli::add_model_command(app, exit_code);
     mimik::cli::add_evaluate_command(app, exit_code);

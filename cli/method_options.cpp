@@ -58,7 +58,9 @@ bool MethodArguments::has_control_points() const {
 }
 
 void MethodArguments::add_to(CLI::App& command, Methods methods) {
-    command.add_option("--method", name, "thesis (as printed), default (what measured best), or another")
+    command
+        .add_option("--method", name,
+                    "default (what measured best), sparse (control points alone), thesis (as printed), or another")
         ->check(CLI::IsMember(methods == Methods::all ? method_names() : model_method_names()))
         ->capture_default_str();
     command.add_option("--catalogue", catalogue_file, "Another FACS catalogue (TOML) than the built-in one");
@@ -90,6 +92,11 @@ void apply_switches(const MethodArguments& arguments, Options& options, double& 
 
 modeling::ModelOptions MethodArguments::model_options() const {
     auto options = model_method(name).model_options();
+    if (options.correspondence == modeling::Correspondence::dense && (!kernel.empty() || no_anchors))
+        throw InputError(
+            fmt::format("--kernel and --no-anchors change control points, and method '{}' moves every vertex by a "
+                        "template; leave them out, or give --method sparse",
+                        name));
     apply_switches(*this, options, options.smoothing);
     return options;
 }

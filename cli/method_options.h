@@ -18,7 +18,7 @@ namespace mimik::cli {
 /// Of --kernel, which the parser has found to be r or r2logr.
 [[nodiscard]] geometry::SplineKernel kernel_by_name(const std::string& name);
 
-/// --method thesis|default and the single switches that differ from it; shared by the commands that model and animate.
+/// --method and the single switches that differ from it; shared by the commands that model and animate.
 struct MethodArguments {
     std::string name = "default";
     std::string catalogue_file;  ///< empty: the catalogue that Mimik ships
@@ -35,7 +35,7 @@ struct MethodArguments {
     /// What a model made by these switches says of itself.
     [[nodiscard]] modeling::ModelProvenance provenance(const facs::FacsCatalogue& catalogue,
                                                        const preprocessing::AverageFace& average) const;
-    /// "default", and what the switches change of it: "default_r2logr_no-anchors_catalogue-mine".
+    /// "sparse", and what the switches change of it: "sparse_r2logr_no-anchors_catalogue-mine".
     [[nodiscard]] std::string variant_name() const;
 };
 

@@ -91,9 +91,9 @@ draw scoring --columns 4 --size 260x310 "${by_method[@]}" --scalar distance_mm -
 "$mimik" synthesize jaw_db --subjects 6 --seed 1 --expressions 12,15,27 --quiet >/dev/null
 "$mimik" preprocess jaw_db -o jaw_work --quiet >/dev/null
 for au in 12 15 27; do
-  "$mimik" animate jaw_work --method dense --target bs001 --au $au -o dense$au.ply --quiet >/dev/null
+  "$mimik" animate jaw_work --target bs001 --au $au -o dense$au.ply --quiet >/dev/null
 done
-"$mimik" animate jaw_work --target bs001 --au 27 -o sparse27.ply --quiet >/dev/null
+"$mimik" animate jaw_work --target bs001 --au 27 --method sparse -o sparse27.ply --quiet >/dev/null
 draw dense --columns 5 --size 220x290 --font-size 17 $panel/target_neutral.ply dense12.ply dense15.ply dense27.ply sparse27.ply \
   --caption "neutral" --caption "AU 12" --caption "AU 15" --caption "AU 27" --caption "AU 27 by points"
 

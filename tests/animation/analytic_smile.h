@@ -24,7 +24,8 @@ protected:
         delete source_;
         delete average_;
     }
-    static modeling::ExpressionModel smile(const modeling::ModelOptions& options = {}, const std::string& code = "12") {
+    static modeling::ExpressionModel smile(const modeling::ModelOptions& options = modeling::ModelOptions::sparse(),
+                                           const std::string& code = "12") {
         return modeling::measure_expression(facs::builtin_catalogue(), test::expression(code), *average_,
                                             source_->neutral, source_->smiling, options);
     }

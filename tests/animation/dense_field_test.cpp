@@ -16,14 +16,8 @@ using geometry::Vector;
 
 class DenseField : public AnalyticSmile {};
 
-modeling::ModelOptions dense_options() {
-    modeling::ModelOptions options;
-    options.correspondence = modeling::Correspondence::dense;
-    return options;
-}
-
 TEST_F(DenseField, a_dense_model_moves_a_face_of_other_size_part_of_the_way_to_its_own_smile) {
-    const auto dense = smile(dense_options());
+    const auto dense = smile(modeling::ModelOptions{});
     const PreparedTarget target(target_->neutral);
     const WeightedExpression weighted{&dense, 1.0};
     AnimatedFace still;
@@ -35,7 +29,7 @@ TEST_F(DenseField, a_dense_model_moves_a_face_of_other_size_part_of_the_way_to_i
 }
 
 TEST_F(DenseField, a_dense_model_fades_to_nothing_beyond_the_face) {
-    const auto dense = smile(dense_options());
+    const auto dense = smile(modeling::ModelOptions{});
     const auto& average = average_->grid;
     double lowest = 1e9;
     for (std::size_t v = 0; v < average.size(); ++v)
@@ -63,7 +57,7 @@ TEST_F(DenseField, a_dense_model_fades_to_nothing_beyond_the_face) {
 }
 
 TEST_F(DenseField, one_side_of_a_smile_leaves_the_other_corner_still) {
-    const auto dense = smile(dense_options(), "12L");
+    const auto dense = smile(modeling::ModelOptions{}, "12L");
     const auto field = dense_field(PreparedTarget(target_->neutral), *dense.dense);
     const auto largest_near = [&](const char* mark) {
         const Point& at = target_->neutral.landmarks.position_mm(mark);

@@ -50,20 +50,20 @@ claim "lengths in the result are those of the frame that is written"
 "$mimik" synthesize lips --subjects 2 --expressions 1,12,27 --seed 5 --quiet  # the inner lips of bs001 are 0.7 mm apart
 "$mimik" preprocess lips -o lips_work --quiet
 for unit in 1 12 27; do
-  "$mimik" animate lips_work --source bs000 --target bs001 --au $unit -o lips.ply --json >lips$unit.json
+  "$mimik" animate lips_work --source bs000 --target bs001 --au $unit --method sparse -o lips.ply --json >lips$unit.json
 done
 grep -q '"AU27 pulls the lips apart, but those of bs001_N_N_0 are closed' lips27.json || fail "no word of closed lips"
-expect_code 0 "note: AU27 pulls the lips apart" "$mimik" animate lips_work --source bs000 --target bs001 --au 27 -o lips.ply
+expect_code 0 "note: AU27 pulls the lips apart" "$mimik" animate lips_work --source bs000 --target bs001 --au 27 --method sparse -o lips.ply
 ! grep -q 'lips apart' lips1.json lips12.json || fail "a note on lips that stay together"
-claim "who opens a closed mouth is told that it stays one piece, and nobody else"
+claim "who opens a closed mouth by control points is told that it stays one piece, and nobody else"
 
-"$mimik" animate lips_work --source bs000 --target bs001 --au 27 --method dense -o dense.ply --json >dense.json
+"$mimik" animate lips_work --source bs000 --target bs001 --au 27 -o dense.ply --json >dense.json
 ! grep -q 'lips apart' dense.json || fail "the template's lips part, and are said not to"
 faces() { sed -n 's/^element face //p' "$1" | head -n 1; }
 "$mimik" animate lips_work --source bs000 --target bs001 --au 27:0 -o rest.ply --quiet
 [ "$(faces dense.ply)" -lt "$(faces rest.ply)" ] || fail "the surface between the lips is still there"
-"$mimik" model lips_work --method dense --source bs000 --au 27 -o dense_models --quiet
-"$mimik" animate lips_work --target bs001 --method dense --model dense_models/bs000/AU27.json -o stored.ply --quiet
+"$mimik" model lips_work --source bs000 --au 27 -o dense_models --quiet
+"$mimik" animate lips_work --target bs001 --model dense_models/bs000/AU27.json -o stored.ply --quiet
 "$mimik" distance dense.ply stored.ply --json | grep -q '"max": 0.0' || fail "a stored dense model moves a face otherwise"
 claim "a dense model opens a closed mouth, and a stored one does the same"
 

@@ -22,6 +22,7 @@ synthesize x --subjects 1 --expressions 12 --dry-run
 scans db1 --no-index
 scans db1 --check --no-index
 preprocess db1 -o x --dry-run
+register work1 --subject bs000 --au 12
 animate work1 --source bs000 --target bs001 --au 12 -o face.ply
 model work1 --source bs000 --au 12 -o models
 evaluate work1 --au 12 --no-reference --no-whole-face

@@ -14,12 +14,13 @@ claim "subjects and expressions may be typed in every way in which they are writ
 same_but_for_origin measured.glb stored.glb
 "$mimik" model work1 --source bs000 --expression 12 --quiet
 cmp models/bs000/AU12.json work1/models/default/bs000/AU12.json
-"$mimik" model work1 --source bs000 --expression 12 --kernel r2logr --no-anchors --quiet
+"$mimik" model work1 --source bs000 --expression 12 --method sparse --kernel r2logr --no-anchors --quiet
 cmp models/bs000/AU12.json work1/models/default/bs000/AU12.json
-other=work1/models/default_r2logr_no-anchors/bs000/AU12.json
+other=work1/models/sparse_r2logr_no-anchors/bs000/AU12.json
 grep -q '"kernel": "r2logr"' "$other" && grep -q '"anchors": false' "$other" && grep -q '"mimik"' "$other" || fail "$other does not say how it was made"
 "$mimik" animate work1 --target bs001 --model "$other" -o stored.glb >out.txt 2>err.txt
-grep -q "kernel r2logr, here r" err.txt
+grep -q "correspondence sparse, here dense; kernel r2logr, here r" err.txt
+expect_code 2 "--kernel and --no-anchors change control points" "$mimik" model work1 --source bs000 --expression 12 --kernel r2logr -o x
 "$mimik" animate work1 --target bs001 --model models/bs000/AU12.json -o stored.glb >out.txt 2>err.txt
 ! grep -F "made otherwise" err.txt || fail "a difference where there is none"
 "$mimik" preprocess "$shared/db1" -o work2 --subject bs001,bs002 --expression 4 --quiet >/dev/null

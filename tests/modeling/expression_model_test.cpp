@@ -32,7 +32,8 @@ protected:
         delete source_;
         delete average_;
     }
-    static ExpressionModel measure(const test::AnalyticSubject& subject, const ModelOptions& options = {},
+    static ExpressionModel measure(const test::AnalyticSubject& subject,
+                                   const ModelOptions& options = ModelOptions::sparse(),
                                    const std::string& code = "12") {
         return measure_expression(facs::builtin_catalogue(), test::expression(code), *average_, subject.neutral,
                                   subject.smiling, options);
@@ -51,7 +52,7 @@ test::AnalyticSubject* ExpressionModelTest::source_ = nullptr;
 test::AnalyticSubject* ExpressionModelTest::larger_ = nullptr;
 
 TEST_F(ExpressionModelTest, a_smile_is_measured_as_the_closed_form_has_it_where_landmarks_tell) {
-    ModelOptions exact;  // the default smooths over landmark jitter, of which there is none here
+    auto exact = ModelOptions::sparse();  // it smooths over landmark jitter, of which there is none here
     exact.smoothing = 0;
     const auto model = measure(*source_, exact);
     const test::AnalyticFace smile{1.0, 6.0};
@@ -91,13 +92,13 @@ TEST_F(ExpressionModelTest, anchors_hold_still_exactly_and_come_only_when_asked_
             EXPECT_EQ(control.displacement_mm, Vector::Zero()) << control.name;
         }
     EXPECT_GT(anchors, 10U);
-    ModelOptions options;
+    auto options = ModelOptions::sparse();
     options.anchors = false;
     for (const auto& control : measure(*source_, options).points) EXPECT_NE(control.kind, facs::ControlKind::anchor);
 }
 
 TEST_F(ExpressionModelTest, a_unit_whose_zone_lies_across_the_border_moves_both_halves_if_anchors_hold_the_rest) {
-    const auto halves = [&](const std::string& code, const ModelOptions& options = {}) {
+    const auto halves = [&](const std::string& code, const ModelOptions& options = ModelOptions::sparse()) {
         const auto model = measure(*source_, options, code);
         return std::pair(model.moves_upper_face, model.moves_lower_face);
     };
@@ -123,7 +124,7 @@ TEST_F(ExpressionModelTest, each_kind_of_point_can_be_left_out_and_the_thesis_le
     EXPECT_GT(all.at(facs::ControlKind::muscle), 0U);
     EXPECT_GT(all.at(facs::ControlKind::wrinkle), 0U);
     EXPECT_GT(all.at(facs::ControlKind::coverage), 0U);
-    ModelOptions options;
+    auto options = ModelOptions::sparse();
     options.wrinkle_points = options.coverage_points = false;
     const auto muscles = kinds(measure(*source_, options));
     EXPECT_EQ(muscles.size(), 2U);
@@ -225,7 +226,7 @@ TEST_F(ExpressionModelTest, a_stored_model_says_how_it_came_about_and_what_diffe
     const auto file = folder.path() / "AU12.json", copy = folder.path() / "copy.json";
     auto model = measure(*source_);
     model.unusable_scans = {"bs009_LFAU_12_0: cut"};
-    ModelOptions options;
+    auto options = ModelOptions::sparse();
     options.kernel = geometry::SplineKernel::r2_log_r2;
     options.smoothing = 0.1;  // no exact double: 17 digits keep it
     options.anchors = false;
@@ -250,14 +251,14 @@ TEST_F(ExpressionModelTest, a_stored_model_says_how_it_came_about_and_what_diffe
     here.mimik_version = "1.2.4";
     here.catalogue = "built-in catalogue";  // the same content by another name
     EXPECT_THAT(differences(*read.provenance, here), testing::IsEmpty());
-    here.options = {};
+    here.options = ModelOptions::sparse();
     here.average_face = "0";
     EXPECT_THAT(differences(*read.provenance, here),
                 testing::ElementsAre("kernel r2logr, here r", "smoothing 0.1, here 30", "anchors off, here on",
                                      HasSubstr("average face")));
-    EXPECT_EQ(variant_suffix(options, {}), "_r2logr_smoothing-0.1_no-anchors");
+    EXPECT_EQ(variant_suffix(options, ModelOptions::sparse()), "_r2logr_smoothing-0.1_no-anchors");
     options.smoothing = 0;  // what another kernel than the usual one begins with
-    EXPECT_EQ(variant_suffix(options, {}), "_r2logr_no-anchors");
+    EXPECT_EQ(variant_suffix(options, ModelOptions::sparse()), "_r2logr_no-anchors");
     EXPECT_EQ(variant_suffix({}, {}), "");
 }
 
@@ -325,14 +326,15 @@ TEST_F(ExpressionModelTest, a_missing_landmark_and_an_unknown_expression_are_nam
     for (const auto& mark : neutral.landmarks.all())
         if (mark.name != "nose_tip") marks.push_back(mark);
     neutral.landmarks = geometry::Landmarks(marks);
-    ModelOptions on_source;
+    auto on_source = ModelOptions::sparse();
     on_source.place_on_average = false;
     EXPECT_THAT(message_of<InputError>([&] {
                     (void)measure_expression(facs::builtin_catalogue(), test::expression("12"), *average_, neutral,
                                              source_->smiling, on_source);
                 }),
                 HasSubstr("'nose_tip' is missing"));
-    EXPECT_THAT(message_of<InputError>([&] { (void)measure(*source_, {}, "99"); }), HasSubstr("99"));
+    EXPECT_THAT(message_of<InputError>([&] { (void)measure(*source_, ModelOptions::sparse(), "99"); }),
+                HasSubstr("99"));
 }
 
 TEST_F(ExpressionModelTest, closed_lips_with_two_marks_on_one_place_are_measured_with_a_word_about_it) {
@@ -341,7 +343,7 @@ TEST_F(ExpressionModelTest, closed_lips_with_two_marks_on_one_place_are_measured
     for (auto& mark : marks)
         if (mark.name == "lower_lip_inner") mark.position_mm = neutral.landmarks.position_mm("upper_lip_inner");
     neutral.landmarks = geometry::Landmarks(marks);
-    ModelOptions exact;  // the default smooths over landmark jitter, of which there is none here
+    auto exact = ModelOptions::sparse();  // it smooths over landmark jitter, of which there is none here
     exact.smoothing = 0;
     const auto model = measure_expression(facs::builtin_catalogue(), test::expression("12"), *average_, neutral,
                                           source_->smiling, exact);
@@ -350,14 +352,12 @@ TEST_F(ExpressionModelTest, closed_lips_with_two_marks_on_one_place_are_measured
 }
 
 TEST_F(ExpressionModelTest, a_dense_model_reads_back_to_the_last_bit_and_its_mean_is_the_mean) {
-    ModelOptions options;
-    options.correspondence = Correspondence::dense;
-    const auto first = measure(*source_, options);
+    const auto first = measure(*source_, ModelOptions{});
     ASSERT_TRUE(first.dense);
     const auto again = decode_expression_model(encode_expression_model(first), "again");
     ASSERT_TRUE(again.dense);
     EXPECT_EQ(again.dense->motion_mm, first.dense->motion_mm);
-    const auto &made = first.dense->registration->face_template(), &read = again.dense->registration->face_template();
+    const auto &made = first.dense->face_template(), &read = again.dense->face_template();
     EXPECT_EQ(read.surface.vertices_mm, made.surface.vertices_mm);
     EXPECT_EQ(read.surface.triangles, made.surface.triangles);
     EXPECT_EQ(read.upper_lip_line, made.upper_lip_line);
