@@ -3,6 +3,10 @@
 #include <memory>
 #include <vector>
 
+#include "animation/inner_parts.h"
+#include "animation/mesh_lips.h"
+#include "preprocessing/kept_registrations.h"
+
 namespace mimik::animation {
 
 using geometry::Point;
@@ -21,6 +25,7 @@ struct TemplatePlace {
 struct TemplatePlaces {
     std::vector<TemplatePlace> of_vertices;  ///< of those that move
     std::vector<preprocessing::LipSide> lip_sides;
+    InnerParts inner;  ///< of somebody's mesh; a scan has none
 };
 
 /// 1 on the template, 0 beyond the fade, smooth between.
@@ -46,6 +51,55 @@ std::vector<Point> bent_on_to(const PreparedTarget& target, const KeptRegistrati
         .vertices_mm;
 }
 
+/// @param hits  on the template, of the vertices at `moving`
+InnerParts inner_parts_of(const PreparedTarget& target, const geometry::SurfaceIndex& index,
+                          std::span<const TemplatePlace> moving, std::span<const geometry::SurfacePoint> hits) {
+    const auto& normalised = target.normalised(Normalisation::similarity);
+    std::vector<double> behind_mm(target.surface().size(), 0.0);
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+        const auto& corners = index.triangles()[hits[k].triangle];
+        const auto& bent = index.vertices_mm();
+        const Vector out =
+            (bent[corners[1]] - bent[corners[0]]).cross(bent[corners[2]] - bent[corners[0]]).normalized();
+        behind_mm[moving[k].vertex] = out.dot(hits[k].position_mm - normalised.vertices_mm[moving[k].vertex]);
+    }
+    return find_inner_parts(normalised.vertices_mm, target.surface().triangles, normalised.landmarks, behind_mm);
+}
+
+void put(TemplatePlace& place, const geometry::SurfaceIndex& index, const geometry::SurfacePoint& hit) {
+    place.corners = index.triangles()[hit.triangle];
+    place.weights = hit.barycentric * (index.on_border(hit) ? faded(hit.distance_mm) : 1.0);
+}
+
+/// The vertices of a mesh that are nearest to the wrong lip go to the nearest point of their own.
+/// @param hits  on the template, of the vertices at `places`
+void put_on_own_lips(TemplatePlaces& places, const PreparedTarget& target, const geometry::SurfaceIndex& index,
+                     std::span<const geometry::SurfacePoint> hits, const preprocessing::FaceTemplate& face_template) {
+    using preprocessing::LipSide;
+    const auto& vertices = target.normalised(Normalisation::similarity).vertices_mm;
+    const auto shares_of = preprocessing::lip_shares(face_template);
+    std::vector<double> shares(vertices.size(), 0.0);
+    for (std::size_t k = 0; k < hits.size(); ++k)
+        for (Eigen::Index c = 0; c < 3; ++c)
+            shares[places.of_vertices[k].vertex] +=
+                hits[k].barycentric[c] * shares_of[index.triangles()[hits[k].triangle][static_cast<std::size_t>(c)]];
+    const auto own = lip_sides_along(vertices, target.surface().triangles, shares);
+    const auto side_of = preprocessing::lip_sides(face_template);
+    for (const auto lip : {LipSide::upper, LipSide::lower}) {
+        std::vector<geometry::Triangle> of_lip;
+        for (std::size_t t = 0; t < side_of.size(); ++t)
+            if (side_of[t] == lip || side_of[t] == LipSide::neither)
+                of_lip.push_back(face_template.surface.triangles[t]);
+        const geometry::SurfaceIndex lip_index(index.vertices_mm(), of_lip);
+        for (auto& place : places.of_vertices) {
+            auto& side = places.lip_sides[place.vertex];
+            if (own[place.vertex] != lip || side == lip) continue;
+            put(place, lip_index, lip_index.closest(vertices[place.vertex]));
+            side = lip;
+        }
+    }
+}
+
 TemplatePlaces locate(const PreparedTarget& target, const KeptRegistrations& registrations) {
     const auto& vertices = target.normalised(Normalisation::similarity).vertices_mm;
     const auto& surface = target.surface();
@@ -63,10 +117,11 @@ TemplatePlaces locate(const PreparedTarget& target, const KeptRegistrations& reg
     places.lip_sides.assign(surface.size(), preprocessing::LipSide::neither);
     for (std::size_t k = 0; k < hits.size(); ++k) {
         auto& place = places.of_vertices[k];
-        place.corners = index.triangles()[hits[k].triangle];
-        place.weights = hits[k].barycentric * (index.on_border(hits[k]) ? faded(hits[k].distance_mm) : 1.0);
+        put(place, index, hits[k]);
         places.lip_sides[place.vertex] = side_of[hits[k].triangle];
     }
+    if (!target.face()) put_on_own_lips(places, target, index, hits, face_template);
+    if (!target.face()) places.inner = inner_parts_of(target, index, places.of_vertices, hits);
     std::erase_if(places.of_vertices, [](const TemplatePlace& place) { return place.weights.isZero(0); });
     return places;
 }
@@ -77,6 +132,34 @@ const TemplatePlaces& places_on(const PreparedTarget& target, const modeling::Te
         return std::make_shared<const TemplatePlaces>(locate(target, *dense.registrations));
     });
     return *static_cast<const TemplatePlaces*>(kept.get());
+}
+
+/// How the skin of the chin moves, average frame.
+Vector chin_motion(const modeling::TemplateMotion& dense) {
+    constexpr double around_mm = 10.0;
+    const auto& rest = dense.face_template().surface;
+    const auto* chin = rest.landmarks.find("chin");
+    Vector sum = Vector::Zero();
+    double count = 0;
+    for (std::size_t v = 0; chin && v < rest.size(); ++v)
+        if ((rest.vertices_mm[v] - chin->position_mm).norm() < around_mm) {
+            sum += dense.motion_mm[v];
+            ++count;
+        }
+    return count > 0 ? Vector(sum / count) : sum;
+}
+
+void move_inner_parts(geometry::DisplacementField& field, const PreparedTarget& target, const InnerParts& inner,
+                      const modeling::TemplateMotion& dense, const Eigen::Matrix3d& target_from_average) {
+    if (inner.empty()) return;
+    const auto& normalised = target.normalised(Normalisation::similarity);
+    const auto turn = jaw_turn(normalised.landmarks, chin_motion(dense));
+    for (std::size_t v = 0; v < inner.inside.size(); ++v) {
+        if (inner.inside[v] == 0) continue;
+        const Point& p = normalised.vertices_mm[v];
+        const Vector on_jaw = inner.on_jaw[v] * (turn * p - p);
+        field.mm[v] = (1 - inner.inside[v]) * field.mm[v] + inner.inside[v] * (target_from_average * on_jaw);
+    }
 }
 
 }  // namespace
@@ -90,12 +173,14 @@ geometry::DisplacementField dense_field(const PreparedTarget& target, const mode
         target.average_from_target(Normalisation::similarity).linear().inverse();
     auto field = geometry::DisplacementField::still(target.surface().size());
     field.answered = target.surface().present;
-    for (const auto& place : places_on(target, dense).of_vertices) {
+    const auto& places = places_on(target, dense);
+    for (const auto& place : places.of_vertices) {
         Vector motion = Vector::Zero();
         for (std::size_t c = 0; c < 3; ++c)
             motion += place.weights[static_cast<Eigen::Index>(c)] * dense.motion_mm[place.corners[c]];
         field.mm[place.vertex] = target_from_average * motion;
     }
+    move_inner_parts(field, target, places.inner, dense, target_from_average);
     return field;
 }
 

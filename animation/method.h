@@ -11,7 +11,6 @@
 #include "geometry/face_surface.h"
 #include "modeling/performance.h"
 #include "preprocessing/average_face.h"
-#include "preprocessing/kept_registrations.h"
 
 namespace mimik::animation {
 

@@ -112,7 +112,14 @@ Chosen choose(const Arguments& arguments, const preprocessing::Workspace& worksp
     for (const auto& typed : arguments.model_files) {
         const auto [file, magnitude] =
             std::filesystem::exists(typed) ? facs::TypedMagnitude{typed, 1.0} : facs::split_magnitude(typed);
-        add(read_model(workspace, file, arguments.target, here, chosen.remarks), magnitude);
+        auto model = read_model(workspace, file, arguments.target, here, chosen.remarks);
+        // The template is bent on to the target once for all models that stand on it.
+        if (model.dense) {
+            modeling::share_registrations(*model.dense, workspace.registrations());
+            for (const auto& earlier : chosen.models)
+                if (earlier.dense) modeling::share_registrations(*model.dense, earlier.dense->registrations);
+        }
+        add(std::move(model), magnitude);
     }
     return chosen;
 }

@@ -19,6 +19,7 @@
 #include "io/json_values.h"
 #include "io/landmark_io.h"
 #include "io/mesh_io.h"
+#include "preprocessing/kept_registrations.h"
 #include "preprocessing/register_workspace.h"
 #include "preprocessing/workspace_layout.h"
 

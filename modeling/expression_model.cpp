@@ -19,6 +19,7 @@
 #include "io/json_values.h"
 #include "io/landmark_io.h"
 #include "modeling/template_motion_json.h"
+#include "preprocessing/kept_registrations.h"
 
 namespace mimik::modeling {
 

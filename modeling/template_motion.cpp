@@ -1,8 +1,11 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "base/errors.h"
 #include "io/json_values.h"
 #include "modeling/template_motion_json.h"
+#include "preprocessing/kept_registrations.h"
 
 namespace mimik::modeling {
 
@@ -15,6 +18,7 @@ using preprocessing::FaceTemplate;
 namespace {
 
 constexpr std::size_t most_vertices = 200'000;  // a template has some thousands
+constexpr std::size_t most_corners = 64;        // of triangles at one vertex: what is solved grows with their square
 
 json to_json(const std::vector<Vector>& vectors) {
     auto list = json::array();
@@ -49,6 +53,34 @@ std::vector<std::uint32_t> line_from_json(const json& document, const char* key,
     return line;
 }
 
+/// @throws InputError if a vertex is the corner of more triangles than a surface needs.
+void check_triangles(const FaceTemplate& made) {
+    if (made.surface.triangles.empty()) throw InputError("there is no triangle in it");
+    std::vector<std::size_t> corners(made.size(), 0);
+    for (const auto& triangle : made.surface.triangles)
+        for (const auto v : triangle)
+            if (++corners[v] > most_corners)
+                throw InputError(fmt::format("more than {} triangles meet in vertex {}", most_corners, v));
+}
+
+/// @throws InputError if the two sides of the cut do not belong together.
+void check_cut(const FaceTemplate& made) {
+    if (made.upper_lip_line.size() != made.lower_lip_line.size())
+        throw InputError(fmt::format("upper_lip_line has {} vertices, lower_lip_line {}", made.upper_lip_line.size(),
+                                     made.lower_lip_line.size()));
+}
+
+BoundLandmark bound_landmark_from_json(const json& value, std::size_t vertices) {
+    BoundLandmark mark{
+        io::read_field<std::string>(value, "name"),
+        io::read_field(value, "corners", [&](const json& corners) { return triangle_from_json(corners, vertices); }),
+        io::read_field(value, "weights", io::vector_from_json)};
+    constexpr double rounding = 1e-6;
+    if (!(std::abs(mark.weights.sum() - 1.0) < rounding && mark.weights.minCoeff() >= -rounding))
+        throw InputError(fmt::format("weights of landmark '{}' are no shares of 1", mark.name));
+    return mark;
+}
+
 FaceTemplate template_from_json(const json& document) {
     FaceTemplate made;
     auto& surface = made.surface;
@@ -56,7 +88,7 @@ FaceTemplate template_from_json(const json& document) {
     const auto size = surface.size();
     io::read_list(document, "triangles",
                   [&](const json& value) { surface.triangles.push_back(triangle_from_json(value, size)); });
-    if (surface.triangles.empty()) throw InputError("there is no triangle in it");
+    check_triangles(made);
     surface.present.assign(size, 1);
     surface.measured.assign(size, 1);
     surface.landmarks = io::landmarks_from_json(document, "landmarks");
@@ -65,16 +97,21 @@ FaceTemplate template_from_json(const json& document) {
         throw InputError(fmt::format("mirror has {} vertices, the template {}", made.mirror.size(), size));
     made.upper_lip_line = line_from_json(document, "upper_lip_line", size);
     made.lower_lip_line = line_from_json(document, "lower_lip_line", size);
-    io::read_list(document, "bound_landmarks", [&](const json& value) {
-        made.landmarks.push_back(
-            {io::read_field<std::string>(value, "name"),
-             io::read_field(value, "corners", [&](const json& corners) { return triangle_from_json(corners, size); }),
-             io::read_field(value, "weights", io::vector_from_json)});
-    });
+    check_cut(made);
+    io::read_list(document, "bound_landmarks",
+                  [&](const json& value) { made.landmarks.push_back(bound_landmark_from_json(value, size)); });
     return made;
 }
 
 }  // namespace
+
+const FaceTemplate& TemplateMotion::face_template() const { return registrations->face_template(); }
+
+void share_registrations(TemplateMotion& dense, const std::shared_ptr<const preprocessing::KeptRegistrations>& known) {
+    if (preprocessing::template_fingerprint(dense.face_template()) ==
+        preprocessing::template_fingerprint(known->face_template()))
+        dense.registrations = known;
+}
 
 json template_motion_to_json(const TemplateMotion& dense) {
     const auto& made = dense.face_template();

@@ -4,7 +4,11 @@
 #include <vector>
 
 #include "geometry/types.h"
-#include "preprocessing/kept_registrations.h"
+#include "preprocessing/face_template.h"
+
+namespace mimik::preprocessing {
+class KeptRegistrations;
+}
 
 namespace mimik::modeling {
 
@@ -16,7 +20,11 @@ struct TemplateMotion {
 
     std::vector<geometry::Vector> motion_mm;  ///< per vertex of the template, average frame, at magnitude 1
 
-    [[nodiscard]] const preprocessing::FaceTemplate& face_template() const { return registrations->face_template(); }
+    [[nodiscard]] const preprocessing::FaceTemplate& face_template() const;
 };
+
+/// Models that stand on one template share what is known of faces: a motion whose template is equal to that of `known`
+/// takes those in the place of its own.
+void share_registrations(TemplateMotion& dense, const std::shared_ptr<const preprocessing::KeptRegistrations>& known);
 
 }  // namespace mimik::modeling

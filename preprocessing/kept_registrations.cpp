@@ -79,12 +79,12 @@ void write(const fs::path& stem, const StoredRegistration& stored, std::span<con
     base::write_atomically(ply, bytes);
     // The mark comes last: a run that ends in between leaves a registration that counts as missing.
     base::write_atomically(with_suffix(stem, ".json"), io::json_text(json{{"schema", 1},
-                                                                         {"kind", registration_kind},
-                                                                         {"made_from", made_from},
-                                                                         {"ply", base::digest_of(bytes).text()},
-                                                                         {"matched_share", stored.matched_share},
-                                                                         {"residual_rms_mm", stored.residual_rms_mm},
-                                                                         {"still_controls", stored.still_controls}}));
+                                                                          {"kind", registration_kind},
+                                                                          {"made_from", made_from},
+                                                                          {"ply", base::digest_of(bytes).text()},
+                                                                          {"matched_share", stored.matched_share},
+                                                                          {"residual_rms_mm", stored.residual_rms_mm},
+                                                                          {"still_controls", stored.still_controls}}));
 }
 
 const geometry::VertexAttribute& attribute(const geometry::Mesh& mesh, const char* name, int components) {
@@ -122,12 +122,12 @@ std::optional<StoredRegistration> read(const fs::path& stem, const std::string& 
     const auto file = with_suffix(stem, ".json");
     if (stem.empty() || !base::is_there(file)) return std::nullopt;
     try {
-        return io::read_json_document(
-            base::read_text(file, io::most_json_bytes), file.string(), damaged_file_mend,
-            [&](const json& document) -> std::optional<StoredRegistration> {
-                if (io::read_field<std::string>(document, "made_from") != made_from) return std::nullopt;
-                return read_stored(stem, document, vertices, moves);
-            });
+        return io::read_json_document(base::read_text(file, io::most_json_bytes), file.string(), damaged_file_mend,
+                                      [&](const json& document) -> std::optional<StoredRegistration> {
+                                          if (io::read_field<std::string>(document, "made_from") != made_from)
+                                              return std::nullopt;
+                                          return read_stored(stem, document, vertices, moves);
+                                      });
     } catch (const InputError&) {
         return std::nullopt;  // damaged: made again
     }
@@ -177,17 +177,13 @@ std::string template_fingerprint(const FaceTemplate& face_template) {
 KeptRegistrations::KeptRegistrations(AverageFace average, fs::path folder)
     : average_(std::move(average)), folder_(std::move(folder)) {}
 
-KeptRegistrations::KeptRegistrations(FaceTemplate face_template) {
-    std::call_once(making_, [&] {
-        registration_ = std::make_unique<const TemplateRegistration>(std::move(face_template));
-        fingerprint_ = template_fingerprint(registration_->face_template());
-    });
-}
+KeptRegistrations::KeptRegistrations(FaceTemplate face_template) : given_(std::move(face_template)) {}
 
 const TemplateRegistration& KeptRegistrations::registration() const {
     std::call_once(making_, [&] {
         const TemplateRegistrationOptions options;
-        registration_ = std::make_unique<const TemplateRegistration>(build_face_template(average_), options);
+        registration_ =
+            std::make_unique<const TemplateRegistration>(given_ ? *given_ : build_face_template(average_), options);
         fingerprint_ = fmt::format("version {} template {} {}", registration_version,
                                    template_fingerprint(registration_->face_template()), base::field_text(options));
     });
@@ -210,8 +206,7 @@ std::string KeptRegistrations::made_from(const Face& neutral, const Face* expres
 RegisteredTemplate KeptRegistrations::neutral(const Face& face) const {
     const auto& made = registration();
     const auto files = stem(face);
-    if (files.empty()) return made.neutral(face);
-    const auto mark = made_from(face, nullptr);
+    const auto mark = files.empty() ? std::string() : made_from(face, nullptr);
     auto stored = read(files, mark, made.face_template().size(), false);
     if (!stored) {
         auto found = made.neutral(face);
@@ -227,8 +222,7 @@ RegisteredTemplate KeptRegistrations::neutral(const Face& face) const {
 RegisteredMotion KeptRegistrations::motion(const Face& neutral_face, const Face& expressive) const {
     const auto& made = registration();
     const auto files = stem(expressive);
-    if (files.empty()) return made.motion(neutral_face, neutral(neutral_face), expressive);
-    const auto mark = made_from(neutral_face, &expressive);
+    const auto mark = files.empty() ? std::string() : made_from(neutral_face, &expressive);
     auto stored = read(files, mark, made.face_template().size(), true);
     if (!stored) {
         const auto rest = neutral(neutral_face);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "preprocessing/average_face.h"
@@ -26,7 +27,9 @@ public:
 
     /// @throws InputError if the average face has no template (build_face_template).
     [[nodiscard]] const TemplateRegistration& registration() const;
-    [[nodiscard]] const FaceTemplate& face_template() const { return registration().face_template(); }
+    [[nodiscard]] const FaceTemplate& face_template() const {
+        return given_ ? *given_ : registration().face_template();
+    }
     /// @throws as TemplateRegistration::neutral.
     [[nodiscard]] RegisteredTemplate neutral(const Face& face) const;
     /// @throws as TemplateRegistration::motion.
@@ -38,6 +41,7 @@ private:
     [[nodiscard]] std::string made_from(const Face& neutral, const Face* expressive) const;
 
     AverageFace average_;
+    std::optional<FaceTemplate> given_;
     std::filesystem::path folder_;
     mutable std::once_flag making_;
     mutable std::unique_ptr<const TemplateRegistration> registration_;

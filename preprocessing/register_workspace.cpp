@@ -6,6 +6,7 @@
 
 #include "base/csv.h"
 #include "base/parallel.h"
+#include "preprocessing/kept_registrations.h"
 
 namespace mimik::preprocessing {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include <Eigen/Eigenvalues>
@@ -33,6 +34,7 @@ void TemplateRegistrationOptions::check() const {
     above_zero("far_stillness", far_stillness);
     if (!(far_from_mm >= 0 && far_to_mm > far_from_mm))
         throw InputError(fmt::format("stillness rises from {} to {} mm; give a farther end", far_from_mm, far_to_mm));
+    if (!(far_growth >= 0)) throw InputError(fmt::format("far_growth is {}; give 0 or more", far_growth));
     if (!(least_matched >= 0 && least_matched <= 1))
         throw InputError(fmt::format("least_matched is {}; give a share from 0 to 1", least_matched));
     if (!(still_motion_mm >= 0))
@@ -77,6 +79,38 @@ geometry::Landmarks without(const geometry::Landmarks& landmarks, std::span<cons
     return geometry::Landmarks(std::move(kept));
 }
 
+constexpr std::array<std::string_view, 2> upper_lip = {"upper_lip_inner", "upper_lip_outer"};
+constexpr std::array<std::string_view, 2> lower_lip = {"lower_lip_inner", "lower_lip_outer"};
+
+/// How much farther apart the inner lips are; 0 where one is not marked.
+double parting_mm(const geometry::Landmarks& from, const geometry::Landmarks& to) {
+    const auto apart_mm = [](const geometry::Landmarks& landmarks) -> std::optional<double> {
+        const auto *upper = landmarks.find(upper_lip[0]), *lower = landmarks.find(lower_lip[0]);
+        if (!upper || !lower) return std::nullopt;
+        return (upper->position_mm - lower->position_mm).norm();
+    };
+    const auto before = apart_mm(from), after = apart_mm(to);
+    return before && after ? *after - *before : 0.0;
+}
+
+/// Of lips that part, a landmark on the middle of a lip says where its whole line goes: half an ellipse from corner to
+/// corner. A spline that knew the middle alone would pull the lip into a point.
+void add_arc(geometry::LandmarkPairs& pairs, const geometry::Landmarks& from, const geometry::Landmarks& to,
+             std::string_view middle) {
+    const auto on_arc = [&](const geometry::Landmarks& landmarks, double aside) -> std::optional<Point> {
+        const auto *left = landmarks.find("mouth_corner_left"), *right = landmarks.find("mouth_corner_right"),
+                   *mid = landmarks.find(middle);
+        if (!left || !right || !mid) return std::nullopt;
+        const Point chord = (left->position_mm * (1 + aside) + right->position_mm * (1 - aside)) / 2;
+        const Point corners = (left->position_mm + right->position_mm) / 2;
+        return chord + std::sqrt(1 - aside * aside) * (mid->position_mm - corners);
+    };
+    for (const double aside : {-0.9, -0.7, -0.5, -0.25, 0.25, 0.5, 0.7, 0.9}) {
+        const auto begin = on_arc(from, aside), end = on_arc(to, aside);
+        if (begin && end) pairs.add(fmt::format("{} {}", middle, aside), *begin, *end);
+    }
+}
+
 }  // namespace
 
 /// By the spline through landmarks and what holds still; near the cut each lip goes by a spline that knows nothing of
@@ -84,10 +118,12 @@ geometry::Landmarks without(const geometry::Landmarks& landmarks, std::span<cons
 std::vector<Point> TemplateRegistration::start(const geometry::Landmarks& from, const geometry::Landmarks& to,
                                                std::span<const Point> still_mm,
                                                std::span<const Point> vertices_mm) const {
-    constexpr std::array<std::string_view, 2> upper_lip = {"upper_lip_inner", "upper_lip_outer"};
-    constexpr std::array<std::string_view, 2> lower_lip = {"lower_lip_inner", "lower_lip_outer"};
+    const bool part = parting_mm(from, to) > options_.arcs_from_parting_mm;
     const auto carried = [&](std::span<const std::string_view> left_out) {
         geometry::LandmarkPairs pairs(without(from, left_out), without(to, left_out));
+        for (const auto* lip : {&upper_lip, &lower_lip})
+            if (part && !left_out.empty() && lip->front() != left_out.front())
+                for (const auto middle : *lip) add_arc(pairs, from, to, middle);
         for (std::size_t k = 0; k < still_mm.size(); ++k)
             pairs.add(fmt::format("still_{}", k), still_mm[k], still_mm[k]);
         return pairs.fit({.smoothing = options_.landmark_smoothing}).apply(vertices_mm);
@@ -177,6 +213,10 @@ std::vector<Point> still_points(std::span<const Point> vertices_mm, std::span<co
 /// Skin slides less the farther it is from a landmark that moved; where it is smooth, no scan shows that.
 std::vector<double> stillness(std::span<const Point> vertices_mm, std::span<const geometry::LandmarkPair> marks,
                               const TemplateRegistrationOptions& options) {
+    double largest_mm = 0;
+    for (const auto& mark : marks) largest_mm = std::max(largest_mm, (mark.target_mm - mark.source_mm).norm());
+    constexpr double small_mm = 10.0;
+    const double grown = 1.0 + options.far_growth * std::max(0.0, largest_mm - small_mm) / small_mm;
     std::vector<double> weights;
     for (const auto& p : vertices_mm) {
         double nearest = 1e9;
@@ -184,7 +224,7 @@ std::vector<double> stillness(std::span<const Point> vertices_mm, std::span<cons
             if ((mark.target_mm - mark.source_mm).norm() > moved_mark_mm)
                 nearest = std::min(nearest, (p - mark.source_mm).norm());
         const double t =
-            std::clamp((nearest - options.far_from_mm) / (options.far_to_mm - options.far_from_mm), 0.0, 1.0);
+            std::clamp((nearest / grown - options.far_from_mm) / (options.far_to_mm - options.far_from_mm), 0.0, 1.0);
         weights.push_back(1.0 + (options.far_stillness - 1.0) * t * t * (3 - 2 * t));
     }
     return weights;

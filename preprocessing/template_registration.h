@@ -24,6 +24,11 @@ struct TemplateRegistrationOptions {
     double still_motion_mm = 0.4;   ///< motion d becomes d d^2 / (d^2 + this^2): what is noise goes
     /// Stillness rises to so many times its weight between these distances from the landmarks that moved.
     double far_from_mm = 20.0, far_to_mm = 45.0, far_stillness = 12.0;
+    /// Both distances grow by this share for every 10 mm that a landmark moves beyond the first: a jaw that drops moves
+    /// the skin up to the ears.
+    double far_growth = 0.5;
+    /// Lips that part by more than this go to half ellipses through their landmarks at the start.
+    double arcs_from_parting_mm = 4.0;
     /// A fit with fewer of the template's vertices on the scan is refused. Faces of three worlds have 0.88 and more.
     double least_matched = 0.5;
 
@@ -41,6 +46,8 @@ struct TemplateRegistrationOptions {
         visit("far_from_mm", self.far_from_mm);
         visit("far_to_mm", self.far_to_mm);
         visit("far_stillness", self.far_stillness);
+        visit("far_growth", self.far_growth);
+        visit("arcs_from_parting_mm", self.arcs_from_parting_mm);
         visit("least_matched", self.least_matched);
         visit("still_motion_mm", self.still_motion_mm);
     }

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "database/hidden_subjects.h"
 #include "io/json_values.h"
+#include "preprocessing/kept_registrations.h"
 #include "preprocessing/workspace_json.h"
 #include "preprocessing/workspace_layout.h"
 

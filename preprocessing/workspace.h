@@ -12,9 +12,10 @@
 #include "facs/expression.h"
 #include "preprocessing/average_face.h"
 #include "preprocessing/face.h"
-#include "preprocessing/kept_registrations.h"
 
 namespace mimik::preprocessing {
+
+class KeptRegistrations;
 
 /// What workspace.json says.
 struct WorkspaceList {

@@ -18,22 +18,22 @@ for mesh in $kept/bs000/*.ply; do [ "$(vertices "$mesh")" = "$(vertices $kept/te
 [ "$(wc -l <$kept/template_landmarks.csv)" -gt 20 ]
 claim "a template lies on each scan that was asked for, vertex for vertex, with a table of how well"
 
-"$mimik" animate work1 --source bs000 --target bs000 --au 12 -o first.ply --quiet
+"$mimik" animate work1 --source bs000 --target bs000 --au 12 -o first/face.ply --quiet
 touch -d '2001-01-01' $kept/bs000/*
-"$mimik" animate work1 --source bs000 --target bs000 --au 12 -o again.ply --quiet
-cmp first.ply again.ply
+"$mimik" animate work1 --source bs000 --target bs000 --au 12 -o again/face.ply --quiet
+cmp first/face.ply again/face.ply
 [ -z "$(find $kept/bs000 -newermt 2002-01-01 -type f)" ] || fail "what is kept was written again"
 claim "what is kept is taken, and gives the same bytes"
 sed -i 's/"made_from": "[0-9a-f]*"/"made_from": "0"/' $kept/bs000/bs000_N_N_0.json
 printf x >>$kept/bs000/bs000_LFAU_12_0.ply
-"$mimik" animate work1 --source bs000 --target bs000 --au 12 -o again.ply --quiet
-cmp first.ply again.ply
+"$mimik" animate work1 --source bs000 --target bs000 --au 12 -o again/face.ply --quiet
+cmp first/face.ply again/face.ply
 [ "$(find $kept/bs000 -newermt 2002-01-01 -name '*.ply' | wc -l)" -eq 2 ] || fail "something stale or damaged was taken"
 claim "what is stale or damaged is made again"
 rm -r $kept
 touch work1/registered
-"$mimik" animate work1 --source bs000 --target bs000 --au 12 -o nowhere.ply --quiet
-cmp first.ply nowhere.ply
+"$mimik" animate work1 --source bs000 --target bs000 --au 12 -o nowhere/face.ply --quiet
+cmp first/face.ply nowhere/face.ply
 expect_code 2 "registered" "$mimik" register work1 --subject bs000
 rm work1/registered
 claim "where nothing can be kept faces are animated all the same, and 'register' says so"

@@ -101,6 +101,7 @@ TEST_F(CastTest, methods_that_share_lessons_still_make_their_own_of_them) {
     const PerformanceReader reader(*workspace_);
     animation::ModelMethod::Setting plain;
     plain.name = "plain";
+    plain.model = modeling::ModelOptions::sparse();
     auto thin_plate = plain;
     thin_plate.name = "thin-plate";
     thin_plate.animation.kernel = geometry::SplineKernel::r2_log_r2;

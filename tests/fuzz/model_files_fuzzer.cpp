@@ -3,6 +3,7 @@
 
 #include "modeling/expression_model.h"
 #include "modeling/region_labels.h"
+#include "preprocessing/kept_registrations.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace mimik::fuzzing {
@@ -43,6 +44,12 @@ void fuzz_one(std::span<const std::uint8_t> bytes) {
                     again.points[k].position_mm == model.points[k].position_mm &&
                     again.points[k].displacement_mm == model.points[k].displacement_mm,
                 "points read back");
+    require(again.dense.has_value() == model.dense.has_value(), "a template reads back");
+    if (!model.dense) return;
+    const auto &made = model.dense->face_template(), &read = again.dense->face_template();
+    require(model.dense->motion_mm.size() == made.size() && again.dense->motion_mm == model.dense->motion_mm &&
+                preprocessing::template_fingerprint(read) == preprocessing::template_fingerprint(made),
+            "template and motion read back");
 }
 
 std::vector<std::string> seeds() {
@@ -57,9 +64,20 @@ std::vector<std::string> seeds() {
     auto affine = model;
     affine.normalisation = modeling::Normalisation::affine;
     affine.points.pop_back();
-    return {modeling::encode_expression_model(model), modeling::encode_expression_model(affine),
-            "rrow,col,region\n0,0,nose\n0,1,nose\n3,4,cheek_left\n", "rregion,col,row\r\n\"my \"\"a\"\", b\",4,1e0\r\n",
-            "rrow,col,region\n9,9,x\n"};
+    auto dense = model;
+    preprocessing::FaceTemplate sheet;
+    sheet.surface.vertices_mm = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}};
+    sheet.surface.triangles = {{0, 1, 2}, {1, 3, 2}};
+    sheet.surface.landmarks = model.landmarks;
+    sheet.mirror = {1, 0, 3, 2};
+    sheet.upper_lip_line = {0, 1};
+    sheet.lower_lip_line = {2, 3};
+    sheet.landmarks = {{"nose_tip", {0, 1, 2}, {0.5, 0.25, 0.25}}};
+    dense.dense = {std::make_shared<const preprocessing::KeptRegistrations>(std::move(sheet)),
+                   {{0, 1, 0}, {0, 2, 0}, {0, 0, 0.5}, {0, 0, 0}}};
+    return {modeling::encode_expression_model(dense),           modeling::encode_expression_model(model),
+            modeling::encode_expression_model(affine),          "rrow,col,region\n0,0,nose\n0,1,nose\n3,4,cheek_left\n",
+            "rregion,col,row\r\n\"my \"\"a\"\", b\",4,1e0\r\n", "rrow,col,region\n9,9,x\n"};
 }
 
 }  // namespace mimik::fuzzing

@@ -1,13 +1,16 @@
 #include "modeling/expression_model.h"
 
+#include <functional>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "base/errors.h"
 #include "base/file.h"
 #include "modeling/average_fingerprint.h"
+#include "preprocessing/kept_registrations.h"
 #include "tests/database/temporary_folder.h"
 #include "tests/support/analytic_workspace.h"
 #include "tests/support/expressions.h"
@@ -374,6 +377,36 @@ TEST_F(ExpressionModelTest, a_dense_model_reads_back_to_the_last_bit_and_its_mea
         EXPECT_LT((middle.dense->motion_mm[v] - 2.0 * first.dense->motion_mm[v]).norm(), 1e-12);
     // Dense and sparse are no mean of one kind.
     EXPECT_THROW(mean.add(measure(*source_)), InputError);
+}
+
+TEST_F(ExpressionModelTest, a_template_that_no_surface_needs_is_refused_by_name) {
+    const auto text = encode_expression_model(measure(*source_, ModelOptions{}));
+    const auto refusal = [&](const std::function<void(nlohmann::json&)>& spoil) {
+        auto document = nlohmann::json::parse(text);
+        spoil(document["dense"]["template"]);
+        return message_of<InputError>([&] { (void)decode_expression_model(document.dump(), "spoilt.json"); });
+    };
+    EXPECT_THAT(refusal([](auto& made) { made["bound_landmarks"][0]["weights"][0] = 7; }),
+                testing::AllOf(HasSubstr("spoilt.json"), HasSubstr("no shares of 1")));
+    EXPECT_THAT(refusal([](auto& made) { made["upper_lip_line"].erase(0); }), HasSubstr("lower_lip_line"));
+    EXPECT_THAT(refusal([](auto& made) {
+                    for (int k = 0; k < 70; ++k) made["triangles"].push_back({0, 1, 2});
+                }),
+                HasSubstr("triangles meet in vertex 0"));
+    EXPECT_THAT(refusal([](auto& made) { made["triangles"][0][1] = 1'000'000; }), HasSubstr("a corner"));
+}
+
+TEST_F(ExpressionModelTest, models_of_one_template_share_what_is_known_of_faces) {
+    const auto first = measure(*source_, ModelOptions{});
+    auto again = decode_expression_model(encode_expression_model(first), "again");
+    ASSERT_NE(again.dense->registrations, first.dense->registrations);
+    share_registrations(*again.dense, first.dense->registrations);
+    EXPECT_EQ(again.dense->registrations, first.dense->registrations);
+    auto other_template = first.dense->face_template();
+    other_template.surface.vertices_mm.front().x() += 0.5;
+    const auto other = std::make_shared<const preprocessing::KeptRegistrations>(other_template);
+    share_registrations(*again.dense, other);
+    EXPECT_EQ(again.dense->registrations, first.dense->registrations);
 }
 
 TEST(ModelOptions, a_dense_model_needs_a_frame_that_keeps_the_expression) {

@@ -65,7 +65,7 @@ TEST_F(Kept, one_scan_that_cannot_be_registered_stops_no_other) {
     EXPECT_GT(found[2].largest_motion_mm, 3.0);  // mouth corners move by 6 mm
     const auto table = to_csv(found);
     EXPECT_THAT(table, HasSubstr("\nbs000_LFAU_17_0,,,,,"));
-    EXPECT_THAT(table, HasSubstr("\nbs000_LFAU_12_0,0.9"));
+    EXPECT_THAT(table, HasSubstr("\nbs000_LFAU_12_0,1.0000,"));
 }
 
 }  // namespace
