@@ -65,7 +65,7 @@ TEST(InnerParts, a_jaw_opens_about_its_joints_and_never_closes_beyond_the_teeth)
     const Point chin = landmarks.position_mm("chin");
     const auto open = jaw_turn(landmarks, {0, -20, -5});
     const Vector way = open * chin - chin;
-    EXPECT_LT(way.y(), -10);  // most of 20 mm: the rest is not of a turn
+    EXPECT_LT(way.y(), -9);  // the chin turns as far as it was pulled, on its own circle
     EXPECT_LT(way.z(), 0);
     EXPECT_EQ(way.x(), 0);
     EXPECT_TRUE(jaw_turn(landmarks, {0, 6, 1}).isApprox(geometry::Transform::Identity()));

@@ -392,7 +392,7 @@ TEST_F(ExpressionModelTest, a_template_that_no_surface_needs_is_refused_by_name)
     EXPECT_THAT(refusal([](auto& made) {
                     for (int k = 0; k < 70; ++k) made["triangles"].push_back({0, 1, 2});
                 }),
-                HasSubstr("triangles meet in vertex 0"));
+                HasSubstr("triangles meet in vertex"));
     EXPECT_THAT(refusal([](auto& made) { made["triangles"][0][1] = 1'000'000; }), HasSubstr("a corner"));
 }
 
