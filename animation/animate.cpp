@@ -27,6 +27,7 @@ AnimationOptions AnimationOptions::thesis() {
     options.anchors = false;
     options.snap_to_vertices = true;
     options.border_mm = 0.0;
+    options.lids = false;
     return options;
 }
 
@@ -123,26 +124,13 @@ std::vector<double> vertex_weights(const geometry::FaceSurface& surface, const E
     if (model.moves_upper_face != model.moves_lower_face)
         weights = facs::region_weights(surface.vertices_mm, surface.present, surface.landmarks, model.moves_lower_face,
                                        options.border_mm);
-    const auto keep = kept_shares(surface, options);
-    for (std::size_t v = 0; v < keep.size(); ++v) weights[v] *= keep[v];
     return weights;
 }
 
-}  // namespace
-
-geometry::DisplacementField expression_field(const PreparedTarget& target, const ExpressionModel& model,
-                                             const AnimationOptions& options, std::vector<CarriedPoint>* points,
-                                             std::vector<std::string>* remarks) {
-    options.check();
-    if (model.dense) {
-        if (points) (void)carry(target, model, options, points, remarks);
-        auto field = dense_field(target, *model.dense);
-        if (!options.keep.empty()) {
-            const auto keep = kept_shares(target.surface(), options);
-            for (std::size_t v = 0; v < field.size(); ++v) field.mm[v] *= keep[v];
-        }
-        return field;
-    }
+/// By the spline between the controls.
+geometry::DisplacementField sparse_field(const PreparedTarget& target, const ExpressionModel& model,
+                                         const AnimationOptions& options, std::vector<CarriedPoint>* points,
+                                         std::vector<std::string>* remarks) {
     const Controls controls = carry(target, model, options, points, remarks);
     const auto warp = geometry::ThinPlateSpline::fit(
         controls.from, controls.to, {.kernel = options.kernel, .smoothing = options.smoothing}, controls.names);
@@ -166,6 +154,21 @@ geometry::DisplacementField expression_field(const PreparedTarget& target, const
         const Vector displacement = weights[moving[k]] * (warped[k] - positions[k]);
         field.mm[moving[k]] = target_from_average * displacement;
     }
+    return field;
+}
+
+}  // namespace
+
+geometry::DisplacementField expression_field(const PreparedTarget& target, const ExpressionModel& model,
+                                             const AnimationOptions& options, std::vector<CarriedPoint>* points,
+                                             std::vector<std::string>* remarks) {
+    options.check();
+    const auto& keep = kept_shares(target.surface(), options);
+    if (model.dense && points) (void)carry(target, model, options, points, remarks);
+    auto field =
+        model.dense ? dense_field(target, *model.dense) : sparse_field(target, model, options, points, remarks);
+    if (options.lids) slide_lids(target, model.expression, field, remarks);
+    for (std::size_t v = 0; v < keep.size(); ++v) field.mm[v] *= keep[v];
     return field;
 }
 
@@ -248,6 +251,10 @@ bool torn_lips(std::span<const preprocessing::LipSide> lip_sides, std::span<cons
     return false;
 }
 
+bool torn(const AnimatedFace& animated, std::span<const Vector> field_mm, std::span<const std::uint32_t> corners) {
+    return torn_lips(animated.lip_sides, field_mm, corners) || torn_lids(animated.lid_sheets, field_mm, corners);
+}
+
 namespace {
 
 /// Less is told by expressions that leave the lips together (AU 12, 14, 15, 20: up to 0.5 mm by default), more by those
@@ -300,6 +307,9 @@ AnimatedFace animate(const PreparedTarget& target, std::span<const WeightedExpre
     for (const auto& weighted : expressions)
         if (weighted.model->dense && result.lip_sides.empty())
             result.lip_sides = lip_sides(target, *weighted.model->dense);
+    for (const auto& weighted : expressions)
+        if (options.lids && result.lid_sheets.empty() && lids_slide(target, weighted.model->expression))
+            result.lid_sheets = lid_sheets(target);
     const auto& surface = target.surface();
     result.field = geometry::DisplacementField::still(surface.size());
     result.field.answered = surface.present;
@@ -312,6 +322,7 @@ AnimatedFace animate(const PreparedTarget& target, std::span<const WeightedExpre
         else
             for (const auto& pull : pulls) result.field.mm[v] += pull;
     }
+    if (!result.lid_sheets.empty()) keep_lids_off_eyeballs(target, result.field.mm);
     result.extent = geometry::field_extent(surface, result.field.mm);
     if (!std::isfinite(result.extent.largest_displacement_mm)) refuse_overflow("the expressions together");
     return result;

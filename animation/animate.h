@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "animation/lid_field.h"
 #include "animation/prepared_target.h"
 #include "base/fields.h"
 #include "geometry/face_surface.h"
@@ -36,6 +37,7 @@ struct AnimationOptions {
     bool snap_to_vertices = false;  ///< carried points go to the nearest vertex (thesis), not the nearest surface point
     double border_mm = 12.0;        ///< width over which an AU fades at the border of its region; 0: hard cut (thesis)
     Combination combination = Combination::sum;
+    bool lids = true;  ///< AU 5, 7 and 41 to 46 slide lids on eyeballs; scanners and splines see little of lids
     /// How much of its displacement each vertex of the target keeps, e.g. modeling::held_weights; empty: all.
     std::vector<double> keep;
     static constexpr std::size_t unlisted = 1;  // keep
@@ -50,6 +52,7 @@ struct AnimationOptions {
         visit("snap_to_vertices", self.snap_to_vertices);
         visit("border_mm", self.border_mm);
         visit("combination", self.combination);
+        visit("lids", self.lids);
     }
     /// The thesis as printed: r^2 ln r^2, no anchors, hard cut between upper and lower face.
     [[nodiscard]] static AnimationOptions thesis();
@@ -88,6 +91,7 @@ struct AnimatedFace {
     std::vector<std::string> remarks;               ///< merged points, magnitudes above 1, closed lips, ...
     geometry::FieldExtent extent;                   ///< of `field`
     std::vector<preprocessing::LipSide> lip_sides;  ///< per vertex, of dense models; else empty
+    std::vector<LidSheet> lid_sheets;               ///< per vertex, where lids slide; else empty
 };
 
 /// Whether the surface between some vertices is torn by a motion: they lie on both lips, which part there by more than
@@ -95,9 +99,14 @@ struct AnimatedFace {
 [[nodiscard]] bool torn_lips(std::span<const preprocessing::LipSide> lip_sides,
                              std::span<const geometry::Vector> field_mm, std::span<const std::uint32_t> corners);
 
+/// Whether a motion tears the surface between some vertices: between lips, between lids, or between lid and eyeball.
+[[nodiscard]] bool torn(const AnimatedFace& animated, std::span<const geometry::Vector> field_mm,
+                        std::span<const std::uint32_t> corners);
+
 /// The motion of every vertex under one model at magnitude 1, in the target's frame. The field at another magnitude m
 /// is m times this one: the spline is linear in the displacements of its controls. Carries the controls by the landmark
-/// spline (Eq. 5.7) and on to the surface, moves them by Eqs 5.8 / 5.10 and warps by the spline of Eq. 5.9.
+/// spline (Eq. 5.7) and on to the surface, moves them by Eqs 5.8 / 5.10 and warps by the spline of Eq. 5.9. Lids slide
+/// on their eyeballs (lid_field.h).
 /// @throws InputError for bad options; NumericalError from the splines.
 [[nodiscard]] geometry::DisplacementField expression_field(const PreparedTarget& target,
                                                            const modeling::ExpressionModel& model,

@@ -45,19 +45,19 @@ void drop_unused_vertices(Mesh& mesh, std::vector<std::uint32_t>& kept) {
         keep_marked(attribute.values, used, static_cast<std::size_t>(attribute.components));
 }
 
-/// Leaves out the faces that parting lips would stretch into a web.
+/// Leaves out the faces that parting lips, or lids that leave an eyeball, would stretch into a web.
 /// @param at_any_magnitude  whatever the expressions are set to: morph targets can be moved
-void cut_lips(Mesh& mesh, const AnimatedFace& animated, std::vector<std::uint32_t>& kept, bool at_any_magnitude) {
-    if (animated.lip_sides.empty()) return;
+void cut_torn(Mesh& mesh, const AnimatedFace& animated, std::vector<std::uint32_t>& kept, bool at_any_magnitude) {
+    if (animated.lip_sides.empty() && animated.lid_sheets.empty()) return;
     geometry::Faces whole;
     std::vector<std::uint32_t> corners;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         corners.clear();
         for (const auto v : mesh.faces[f]) corners.push_back(kept[v]);
-        bool torn = torn_lips(animated.lip_sides, animated.field.mm, corners);
+        bool is_torn = torn(animated, animated.field.mm, corners);
         if (at_any_magnitude)
-            for (const auto& shape : animated.shapes) torn = torn || torn_lips(animated.lip_sides, shape.mm, corners);
-        if (!torn) whole.add(mesh.faces[f]);
+            for (const auto& shape : animated.shapes) is_torn = is_torn || torn(animated, shape.mm, corners);
+        if (!is_torn) whole.add(mesh.faces[f]);
     }
     mesh.faces = std::move(whole);
     drop_unused_vertices(mesh, kept);
@@ -80,7 +80,7 @@ Mesh mesh_of(const AnimatedFace& animated, const preprocessing::Face& neutral, c
         displacement.values.insert(displacement.values.end(), d.begin(), d.end());
     }
     mesh.attributes.insert(mesh.attributes.begin(), std::move(displacement));
-    cut_lips(mesh, animated, kept, positions == Positions::neutral);
+    cut_torn(mesh, animated, kept, positions == Positions::neutral);
     if (kept_vertices) *kept_vertices = std::move(kept);
     return mesh;
 }

@@ -28,8 +28,8 @@ struct ExportOptions {
 
 /// The animated face of a scan as a mesh: quads of the grid, texture coordinates, attributes `displacement_mm` (3 per
 /// vertex, in the frame of the mesh) and `origin` (1 measured, 2 bridged). Vertices outside the face (and bridged ones,
-/// if they are left out) are dropped, and so are faces between lips that part and what they alone use; the order of the
-/// rest is kept.
+/// if they are left out) are dropped, and so are faces between lips or lids that part and what they alone use; the
+/// order of the rest is kept.
 /// @param kept_vertices  grid index of every vertex of the mesh
 [[nodiscard]] geometry::Mesh to_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral,
                                      const ExportOptions& options = {},

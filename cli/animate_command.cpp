@@ -250,7 +250,7 @@ int animate_scan(const Arguments& arguments, const preprocessing::Workspace& wor
 std::size_t torn_faces(const geometry::Mesh& mesh, const animation::AnimatedFace& animated) {
     std::size_t torn = 0;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-        torn += animation::torn_lips(animated.lip_sides, animated.field.mm, mesh.faces[f]) ? 1 : 0;
+        torn += animation::torn(animated, animated.field.mm, mesh.faces[f]) ? 1 : 0;
     return torn;
 }
 
@@ -283,7 +283,7 @@ int animate_own_mesh(const Arguments& arguments, const preprocessing::Workspace&
     });
     remarks.insert(remarks.end(), animated.remarks.begin(), animated.remarks.end());
     if (const auto torn = torn_faces(file.mesh, animated); torn > 0)
-        remarks.push_back(fmt::format("{} of {} join lips that part, and are stretched: cut the mesh along its lips",
+        remarks.push_back(fmt::format("{} of {} join lips or lids that part, and are stretched: cut the mesh there",
                                       base::counted(torn, "face"), arguments.mesh.string()));
     const auto output = base::where_links_lead(arguments.output);
     io::MeshWriteOptions options;

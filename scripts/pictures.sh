@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # pictures.sh [--write]: draws every picture of README and docs anew, by Mimik's commands alone, of the 12 built-in people of
-# seed 1, into out/pictures. Look at them beside those of docs/images; --write puts them there. Needs build/release and
-# pngquant, which makes them small; MIMIK names another program than that of build/release.
+# seed 1, into out/pictures; all but lids.png, which is of a MakeHuman head (docs/algorithms/lids.md). Look at them beside
+# those of docs/images; --write puts them there. Needs build/release and pngquant, which makes them small; MIMIK names
+# another program than that of build/release.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 write=no
