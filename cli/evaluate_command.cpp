@@ -26,7 +26,7 @@ namespace {
 
 struct Arguments {
     Common common;
-    std::string workspace, output, catalogue_file;
+    std::string workspace, output, catalogue_file, zones;
     std::vector<std::string> methods = {"thesis", "default", "mean"}, expressions;
     evaluation::ExperimentOptions options;
     bool no_reference = false, no_whole_face = false, dry_run = false;
@@ -35,7 +35,7 @@ struct Arguments {
 int say_plan(const Arguments& arguments, const evaluation::ExperimentPlan& plan) {
     const auto estimate = evaluation::estimate(plan);
     const double seconds = estimate.core_seconds / working_threads();
-    constexpr double bytes_per_transfer = 600;  // five lines of cases.csv
+    constexpr double bytes_per_transfer = 1500;  // thirteen lines of cases.csv
     const double megabytes = 1.0 + static_cast<double>(estimate.transfers) * bytes_per_transfer / 1e6;
     if (arguments.common.json)
         std::cout << io::json_text(nlohmann::json{{"schema", 1},
@@ -65,6 +65,13 @@ void remove_at_signals(const std::filesystem::path& file) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
 }
 
+evaluation::ZoneSource zones_named(const std::string& name) {
+    using evaluation::ZoneSource;
+    for (const auto source : {ZoneSource::truth, ZoneSource::data, ZoneSource::catalogue})
+        if (name == to_string(source)) return source;
+    return ZoneSource::automatic;
+}
+
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
     const auto catalogue =
@@ -74,6 +81,7 @@ int run(Arguments& arguments) {
     options.methods.clear();
     for (const auto& name : arguments.methods) options.methods.push_back(animation::method_by_name(name));
     options.expressions = expressions_named(workspace, catalogue, "--expression", arguments.expressions);
+    options.zones = zones_named(arguments.zones);
     options.reference = !arguments.no_reference;
     options.whole_face = !arguments.no_whole_face;
     const evaluation::PerformanceReader reader(workspace);
@@ -121,6 +129,11 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--max-sources", options.max_sources, "Sources per target; 0 = all other subjects")
         ->capture_default_str();
+    command
+        ->add_option("--zones", arguments->zones,
+                     "Where methods are compared: where the truth, the data or the catalogue say that skin moves "
+                     "(default: truth where there is one, else data)")
+        ->check(CLI::IsMember({"truth", "data", "catalogue"}));
     command->add_option("--catalogue", arguments->catalogue_file,
                         "Another FACS catalogue (TOML) than the built-in one");
     command->add_flag("--no-reference", arguments->no_reference,

@@ -43,22 +43,25 @@ std::vector<Vector> true_motion_on_average(const AverageFace& average, const Fac
     return motion;
 }
 
-TrueZone::TrueZone(const AverageFace& average) : average_(average), sum_(average.grid.size(), Vector::Zero()) {}
+MotionZone::MotionZone(const AverageFace& average) : average_(average), sum_(average.grid.size(), Vector::Zero()) {}
 
-void TrueZone::add(std::span<const Vector> motion_mm) {
+void MotionZone::add(std::span<const Vector> motion_mm) {
     for (std::size_t v = 0; v < sum_.size(); ++v) sum_[v] += motion_mm[v];
     ++subjects_;
 }
 
-ActiveZone TrueZone::zone(const facs::Expression& expression, double share) const {
-    if (subjects_ == 0) throw InputError(fmt::format("{}: no subject with a truth shows it", expression.code()));
+double MotionZone::largest_mm() const {
+    double largest = 0;
+    for (const auto& total : sum_) largest = std::max(largest, total.norm());
+    return subjects_ > 0 ? largest / static_cast<double>(subjects_) : 0;
+}
+
+ActiveZone MotionZone::zone(const facs::Expression& expression, double share) const {
+    if (subjects_ == 0) throw InputError(fmt::format("{}: no subject says where it moves the skin", expression.code()));
     ActiveZone zone;
     zone.expression = expression;
-    double largest = 0;
-    for (const auto& total : sum_) {
-        zone.displacement_mm.push_back(total.norm() / static_cast<double>(subjects_));
-        largest = std::max(largest, zone.displacement_mm.back());
-    }
+    for (const auto& total : sum_) zone.displacement_mm.push_back(total.norm() / static_cast<double>(subjects_));
+    const double largest = largest_mm();
     for (std::size_t v = 0; v < sum_.size(); ++v)
         zone.active.push_back(average_.grid.inside(v) && zone.displacement_mm[v] > share * largest ? 1 : 0);
     return zone;

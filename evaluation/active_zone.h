@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,11 +14,28 @@
 
 namespace mimik::evaluation {
 
+/// From what zones are made: where a truth says that skin moved, where the scans show it, or where the catalogue draws.
+/// `automatic` is the truth where there is one, else the data.
+enum class ZoneSource : std::uint8_t { automatic, truth, data, catalogue };
+[[nodiscard]] constexpr const char* to_string(ZoneSource source) {
+    switch (source) {
+        case ZoneSource::truth:
+            return "truth";
+        case ZoneSource::data:
+            return "data";
+        case ZoneSource::catalogue:
+            return "catalogue";
+        case ZoneSource::automatic:
+            break;
+    }
+    return "automatic";
+}
+
 /// Where an expression moves the skin, on the average face: the part of a face on which methods are compared.
 struct ActiveZone {
     facs::Expression expression;
     geometry::VertexMask active;          ///< per vertex of the average face's grid
-    std::vector<double> displacement_mm;  ///< mean over subjects, where it is known from a truth; else empty
+    std::vector<double> displacement_mm;  ///< mean over subjects, from a truth or the data; else empty
 };
 
 /// Where an expression really moved one subject's skin: one vector per vertex of the average face's grid, its frame.
@@ -27,13 +45,15 @@ struct ActiveZone {
                                                                    const database::TrueScan& true_neutral,
                                                                    std::span<const geometry::Vector> true_field_mm);
 
-/// The zone from a truth, subject after subject: active where the length of their mean true motion exceeds a share of
-/// its maximum on the average face. Holds the sum alone.
-class TrueZone {
+/// The zone from motions, subject after subject: active where the length of their mean motion exceeds a share of its
+/// maximum on the average face. Holds the sum alone.
+class MotionZone {
 public:
     /// Keeps a reference.
-    explicit TrueZone(const preprocessing::AverageFace& average);
-    void add(std::span<const geometry::Vector> motion_mm);  ///< of true_motion_on_average()
+    explicit MotionZone(const preprocessing::AverageFace& average);
+    void add(std::span<const geometry::Vector> motion_mm);  ///< true_motion_on_average(), or MotionOnAverage::of()
+    [[nodiscard]] std::size_t subjects() const { return subjects_; }
+    [[nodiscard]] double largest_mm() const;  ///< length of the mean motion where it is largest; 0 of no subject
     /// @throws InputError if no subject was added.
     [[nodiscard]] ActiveZone zone(const facs::Expression& expression, double share = 0.2) const;
 
@@ -43,7 +63,7 @@ private:
     std::size_t subjects_ = 0;
 };
 
-/// The same region as the catalogue draws it, for databases without a truth.
+/// The same region as the catalogue draws it, whatever the data show.
 [[nodiscard]] ActiveZone active_zone_from_catalogue(const facs::Expression& expression,
                                                     const preprocessing::AverageFace& average,
                                                     const facs::FacsCatalogue& catalogue);

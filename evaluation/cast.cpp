@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "base/errors.h"
 #include "base/parallel.h"
+#include "evaluation/data_zone.h"
+#include "preprocessing/kept_registrations.h"
 
 namespace mimik::evaluation {
 
@@ -66,66 +69,128 @@ animation::LessonPointer LessonBook::lesson(std::size_t method, std::size_t k) c
 
 namespace {
 
-std::vector<Vector> true_motion(const PerformanceReader& reader, const modeling::Performance& own) {
-    return true_motion_on_average(reader.workspace().average(), own.neutral, *own.true_neutral,
-                                  own.true_expression->displacement_mm);
-}
+/// Zones of one experiment, and what they are made from.
+class ZoneFinder {
+public:
+    ZoneFinder(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue, ZoneSource source,
+               FailureList& failures)
+        : reader_(reader), catalogue_(catalogue), failures_(failures), source_(source) {
+        if (source_ == ZoneSource::automatic) source_ = reader.has_truth() ? ZoneSource::truth : ZoneSource::data;
+        if (source_ == ZoneSource::truth && !reader.has_truth())
+            throw InputError(fmt::format("zones from the truth are asked for, and {} has none; take those of the data",
+                                         reader.workspace().database_root().string()));
+        if (source_ != ZoneSource::data) return;
+        try {
+            on_average_.emplace(average(), registrations().face_template());
+        } catch (const InputError& e) {  // an average face without a mouth has no template
+            source_ = ZoneSource::catalogue;
+            remarks_.push_back(fmt::format("zones from the catalogue, there are none from the data: {}", e.what()));
+        }
+    }
 
-/// Of one AU of an expression that `performances` show.
-ActiveZone zone_of_unit(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
-                        const facs::Expression& expression, const facs::Expression& unit,
-                        std::span<const ScanId> performances, FailureList& failures) {
-    std::vector<ScanId> scans;
-    for (const auto& performance : performances)
-        if (auto id = reader.workspace().scan_of(performance.subject, unit)) scans.push_back(std::move(*id));
-    TrueZone zone(reader.workspace().average());
-    bool any = false;
-    base::in_batches(
-        scans.size(),
-        [&](std::size_t k) -> std::vector<Vector> {
-            const ScanId& id = scans[k];
-            try {
-                return true_motion(reader, reader.read(id));
-            } catch (const std::exception& e) {
-                failures.add(
-                    fmt::format("{}: takes no part in the zone of {}: {}", id.name(), expression.code(), e.what()));
-                return {};
-            }
-        },
-        [&](const std::vector<Vector>& motion_mm) {
-            if (motion_mm.empty()) return;
-            zone.add(motion_mm);
-            any = true;
-        });
-    return any ? zone.zone(unit) : active_zone_from_catalogue(unit, reader.workspace().average(), catalogue);
-}
+    [[nodiscard]] ZoneSource source() const { return source_; }
+    [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
 
-void add_zones_of_units(ActiveZone& zone, const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
-                        std::span<const ScanId> performances, FailureList& failures) {
-    const auto units = zone.expression.units();
-    if (units.size() < 2) return;
-    for (const auto& [unit, side, low_intensity] : units)
-        unite(zone, zone_of_unit(reader, catalogue, zone.expression, facs::Expression::of_units({{unit, side, false}}),
-                                 performances, failures));
-}
+    /// How one subject's skin moves, per vertex of the average face; empty where the catalogue draws.
+    [[nodiscard]] std::vector<Vector> motion(const modeling::Performance& own) const {
+        if (source_ == ZoneSource::truth)
+            return true_motion_on_average(average(), own.neutral, *own.true_neutral,
+                                          own.true_expression->displacement_mm);
+        if (source_ == ZoneSource::data)
+            return on_average_->of(registrations().motion(own.neutral, own.expressive).motion_mm);
+        return {};
+    }
+
+    /// As motion(); of somebody of whom there is none that is reported, and empty.
+    [[nodiscard]] std::vector<Vector> motion_if_known(const modeling::Performance& own,
+                                                      const facs::Expression& of_zone) const {
+        try {
+            return motion(own);
+        } catch (const std::exception& e) {
+            failures_.add(fmt::format("{}: takes no part in the zone of {}: {}", own.expressive.id.name(),
+                                      of_zone.code(), e.what()));
+            return {};
+        }
+    }
+
+    /// From the motions of those who show it.
+    ActiveZone zone(const facs::Expression& expression, const MotionZone& motions, ZoneSource* from = nullptr) {
+        const bool too_little = source_ == ZoneSource::data && motions.largest_mm() < least_zone_motion_mm;
+        if (too_little && motions.subjects() > 0)
+            remarks_.push_back(
+                fmt::format("{}: zone from the catalogue, the scans show a mean motion of {:.1f} mm at most",
+                            expression.code(), motions.largest_mm()));
+        const bool drawn = too_little || motions.subjects() == 0 || source_ == ZoneSource::catalogue;
+        if (from) *from = drawn ? ZoneSource::catalogue : source_;
+        return drawn ? active_zone_from_catalogue(expression, average(), catalogue_) : motions.zone(expression);
+    }
+
+    /// An expression of several AUs has theirs, too: a share of the largest motion would leave out the small ones.
+    void add_zones_of_units(ActiveZone& zone, std::span<const ScanId> performances) {
+        const auto units = zone.expression.units();
+        if (units.size() < 2 || source_ == ZoneSource::catalogue) return;
+        for (const auto& [unit, side, low_intensity] : units)
+            unite(zone, zone_of_unit(zone.expression, facs::Expression::of_units({{unit, side, false}}), performances));
+    }
+
+private:
+    [[nodiscard]] const preprocessing::AverageFace& average() const { return reader_.workspace().average(); }
+    [[nodiscard]] const preprocessing::KeptRegistrations& registrations() const {
+        return *reader_.workspace().registrations();
+    }
+
+    /// Of one AU of an expression that `performances` show.
+    ActiveZone zone_of_unit(const facs::Expression& expression, const facs::Expression& unit,
+                            std::span<const ScanId> performances) {
+        std::vector<ScanId> scans;
+        for (const auto& performance : performances)
+            if (auto id = reader_.workspace().scan_of(performance.subject, unit)) scans.push_back(std::move(*id));
+        MotionZone motions(average());
+        base::in_batches(
+            scans.size(),
+            [&](std::size_t k) -> std::vector<Vector> {
+                try {
+                    return motion_if_known(reader_.read(scans[k]), expression);
+                } catch (const std::exception& e) {
+                    failures_.add(fmt::format("{}: takes no part in the zone of {}: {}", scans[k].name(),
+                                              expression.code(), e.what()));
+                    return {};
+                }
+            },
+            [&](const std::vector<Vector>& motion_mm) {
+                if (!motion_mm.empty()) motions.add(motion_mm);
+            });
+        return zone(unit, motions);
+    }
+
+    const PerformanceReader& reader_;
+    const facs::FacsCatalogue& catalogue_;
+    FailureList& failures_;
+    ZoneSource source_;
+    std::optional<MotionOnAverage> on_average_;  // of zones from the data
+    std::vector<std::string> remarks_;
+};
 
 /// What is taken from one performance before it is dropped.
 struct Taken {
     std::optional<ScanId> id;
     std::vector<animation::LessonPointer> lessons;
-    std::vector<Vector> true_motion_mm;
+    std::vector<Vector> motion_mm;
 };
 
-Taken take(const PerformanceReader& reader, const LessonBook& book, const ScanId& id, FailureList& failures) {
+Taken take(const PerformanceReader& reader, const LessonBook& book, const ZoneFinder& zones, const ScanId& id,
+           const facs::Expression& expression, FailureList& failures) {
     Taken taken;
     modeling::Performance own;
     try {
         own = reader.read(id);
-        if (own.true_expression) taken.true_motion_mm = true_motion(reader, own);
+        // A truth that does not fit its scan is the end of it, a template that does not lie on the scan is not.
+        if (zones.source() == ZoneSource::truth) taken.motion_mm = zones.motion(own);
     } catch (const std::exception& e) {
         failures.add(fmt::format("{}: takes part in no case: {}", id.name(), e.what()));
         return taken;
     }
+    if (zones.source() == ZoneSource::data) taken.motion_mm = zones.motion_if_known(own, expression);
     taken.id = id;
     taken.lessons = book.study(own);
     return taken;
@@ -135,24 +200,23 @@ Taken take(const PerformanceReader& reader, const LessonBook& book, const ScanId
 
 Cast gather_cast(const PerformanceReader& reader, const animation::LearningTask& task,
                  std::span<const ScanId> performances, std::span<const animation::MethodPointer> methods,
-                 FailureList& failures) {
-    const auto& average = reader.workspace().average();
+                 FailureList& failures, ZoneSource zones) {
     Cast cast{task.expression, {}, {}, LessonBook(reader, task, methods, failures)};
-    TrueZone zone(average);
+    ZoneFinder finder(reader, task.catalogue, zones, failures);
+    MotionZone motions(reader.workspace().average());
     base::in_batches(
-        performances.size(), [&](std::size_t k) { return take(reader, cast.lessons, performances[k], failures); },
+        performances.size(),
+        [&](std::size_t k) { return take(reader, cast.lessons, finder, performances[k], task.expression, failures); },
         [&](Taken& own) {
             if (!own.id) return;
-            if (reader.has_truth()) zone.add(own.true_motion_mm);
+            if (!own.motion_mm.empty()) motions.add(own.motion_mm);
             cast.lessons.add(*own.id, std::move(own.lessons));
             cast.participants.push_back(std::move(*own.id));
         });
-    if (!reader.has_truth()) {
-        cast.zone = active_zone_from_catalogue(task.expression, average, task.catalogue);
-    } else if (!cast.participants.empty()) {
-        cast.zone = zone.zone(task.expression);
-        add_zones_of_units(cast.zone, reader, task.catalogue, performances, failures);
-    }
+    if (cast.participants.empty()) return cast;
+    cast.zone = finder.zone(task.expression, motions, &cast.zone_from);
+    finder.add_zones_of_units(cast.zone, performances);
+    cast.remarks = finder.remarks();
     return cast;
 }
 

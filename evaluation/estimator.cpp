@@ -1,6 +1,10 @@
 #include "evaluation/estimator.h"
 
 #include "base/errors.h"
+#include "evaluation/lip_aperture.h"
+#include "evaluation/over_hole.h"
+#include "evaluation/peak.h"
+#include "evaluation/still_skin.h"
 
 namespace mimik::evaluation {
 
@@ -35,14 +39,11 @@ public:
     [[nodiscard]] std::string name() const override { return "true_distance"; }
     [[nodiscard]] std::vector<Measure> measure(const JudgedFace& face) const override {
         const auto& target = face.target;
-        const auto& field = face.field;
         if (target.true_displacement_mm.empty()) return {};
         double sum_mm = 0;
         for (std::size_t k = 0; k < target.vertices.size(); ++k) {
             if (!target.in_zone[k]) continue;
-            const auto v = target.vertices[k];
-            const Vector way = answers(field, v) ? field.mm[v] : Vector(Vector::Zero());
-            sum_mm += (way - target.true_displacement_mm[k]).norm();
+            sum_mm += (face.way_mm(target.vertices[k]) - target.true_displacement_mm[k]).norm();
         }
         const auto count = target.zone_size();
         if (count == 0) refuse_empty_zone();
@@ -70,6 +71,8 @@ public:
 };
 
 }  // namespace
+
+Vector JudgedFace::way_mm(std::uint32_t v) const { return answers(field, v) ? field.mm[v] : Vector(Vector::Zero()); }
 
 SurfaceDistances distances_to_real_scan(const JudgedFace& face) {
     const auto& target = face.target;
@@ -113,6 +116,10 @@ const std::vector<std::unique_ptr<const Estimator>>& known_estimators() {
         all.push_back(std::make_unique<SurfaceDistance>());
         all.push_back(std::make_unique<TrueDistance>());
         all.push_back(std::make_unique<FieldItself>());
+        all.push_back(lip_aperture_estimator());
+        all.push_back(still_skin_estimator());
+        all.push_back(peak_estimator());
+        all.push_back(over_hole_estimator());
         return all;
     }();
     return estimators;

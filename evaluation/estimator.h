@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,17 +17,20 @@ struct JudgedFace {
     const geometry::FaceSurface& neutral;
     const geometry::DisplacementField& field;  ///< scanner frame; where it has no answer, it is scored as doing nothing
     bool made_by_method = true;                ///< it is neither the truth's nor that of doing nothing
+
+    /// Where the field takes vertex v, from where it is; zero where it has no answer.
+    [[nodiscard]] geometry::Vector way_mm(std::uint32_t v) const;
 };
 
 /// One number that an estimator found.
 struct Measure {
-    std::string region;           ///< "zone", "face"
+    std::string region;           ///< "zone", "face", "mouth"
     std::string metric;           ///< "mean", ...
     std::optional<double> value;  ///< empty: not known
     std::string unit;
 };
 
-/// One way to say how true a face is.
+/// One way to say how true a face is. What is not known of a face has no measure.
 class Estimator {
 public:
     virtual ~Estimator() = default;
@@ -38,6 +42,7 @@ public:
 /// "surface_distance": mean distance of the vertices to the real expressive scan, in the zone and on the whole face.
 /// "true_distance": mean 3D distance to the true position of the same skin point, in the zone; nothing without a truth.
 /// "field": vertices without an answer; of what a method made, the largest crack between neighbouring vertices.
+/// "lip_aperture", "still_skin", "peak", "over_hole": what those distances hardly see; each has a header of its own.
 [[nodiscard]] const std::vector<std::unique_ptr<const Estimator>>& known_estimators();
 
 /// What "surface_distance" measures, as plain numbers.

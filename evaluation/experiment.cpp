@@ -1,9 +1,12 @@
 #include "evaluation/experiment.h"
 
+#include <algorithm>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -35,6 +38,8 @@ public:
     }
     [[nodiscard]] std::vector<std::string> failures() const { return failures_.sorted(); }
     [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+    /// Expressions whose zones the catalogue drew.
+    [[nodiscard]] const std::vector<std::string>& zones_by_catalogue() const { return zones_by_catalogue_; }
 
 private:
     /// A neutral that cannot be used is reported once, not once per expression.
@@ -65,12 +70,16 @@ private:
             if (usable_.contains(id.subject)) performances.push_back(id);
         const animation::LearningTask task{planned.expression, reader_.workspace().average(), catalogue_,
                                            reader_.workspace().registrations()};
-        const auto cast = gather_cast(reader_, task, performances, plan_.methods, failures_);
+        const auto cast = gather_cast(reader_, task, performances, plan_.methods, failures_, plan_.zones);
         const auto& code = planned.expression.code();
         const std::size_t count = cast.participants.size();
         if (count < fewest_subjects)
             return failures_.add(fmt::format("expression '{}': left out: {} left; an experiment needs {} or more", code,
                                              base::counted(count, "subject is", "subjects are"), fewest_subjects));
+        for (const auto& remark : cast.remarks)
+            if (std::find(remarks_.begin(), remarks_.end(), remark) == remarks_.end()) remarks_.push_back(remark);
+        if (cast.zone_from == ZoneSource::catalogue && plan_.zones != ZoneSource::catalogue)
+            zones_by_catalogue_.push_back(code);
         in_order(
             count,
             [&](std::size_t t) {
@@ -90,16 +99,32 @@ private:
     const std::function<void(const std::string&)>& progress_;
     FailureList failures_;
     std::set<std::string> usable_;
-    std::vector<std::string> remarks_;
+    std::vector<std::string> remarks_, zones_by_catalogue_;
 };
 
 /// Mean of what is known.
-std::optional<double> mean_of(const std::map<std::string, Score>& scores, std::optional<double> Score::*number) {
+template <class Number>
+std::optional<double> mean_of(const std::map<std::string, Score>& scores, const Number& number) {
     std::size_t count = 0;
-    for (const auto& [expression, score] : scores) count += (score.*number).has_value() ? 1 : 0;
+    for (const auto& [expression, score] : scores) count += std::invoke(number, score).has_value() ? 1 : 0;
     if (count == 0) return std::nullopt;
     double mean = 0;
-    for (const auto& [expression, score] : scores) mean += (score.*number).value_or(0) / static_cast<double>(count);
+    for (const auto& [expression, score] : scores)
+        mean += std::invoke(number, score).value_or(0) / static_cast<double>(count);
+    return mean;
+}
+
+Faults mean_faults(const std::map<std::string, Score>& scores) {
+    Faults mean;
+    Faults::each_field(mean, [&](const std::string_view name, std::optional<double>& value) {
+        value = mean_of(scores, [&](const Score& score) {
+            std::optional<double> own;
+            Faults::each_field(score.faults, [&](const std::string_view other, const std::optional<double>& number) {
+                if (other == name) own = number;
+            });
+            return own;
+        });
+    });
     return mean;
 }
 
@@ -112,7 +137,8 @@ MethodScores scores_of_method(const animation::Method& method, const ExperimentP
                         .explained = {},
                         .explained_median = {},
                         .explained_whole = {},
-                        .share = {}};
+                        .share = {},
+                        .faults = {}};
     const auto found = table.find(method.name());
     for (const auto& planned : plan.expressions) {
         auto& score = scores.per_expression[planned.expression.code()];
@@ -123,6 +149,7 @@ MethodScores scores_of_method(const animation::Method& method, const ExperimentP
     scores.explained = mean_of(scores.per_expression, &Score::explained);
     scores.explained_median = mean_of(scores.per_expression, &Score::explained_median);
     scores.explained_whole = mean_of(scores.per_expression, &Score::explained_whole);
+    scores.faults = mean_faults(scores.per_expression);
     return scores;
 }
 
@@ -152,7 +179,8 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
     report.subjects = plan.subjects;
     for (const auto& planned : plan.expressions) report.expressions.push_back(planned.expression);
     report.whole_face = plan.whole_face;
-    report.zones = reader.has_truth() ? "truth" : "catalogue";
+    report.zones = to_string(plan.zones);
+    report.zones_by_catalogue = run.zones_by_catalogue();
     report.alignment = reader.has_truth() ? "true pose" : "ICP on the stable region";
     report.truth = reader.truth_origin();
     for (const auto& method : plan.methods) {

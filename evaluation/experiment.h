@@ -23,14 +23,17 @@ struct MethodScores {
     std::optional<double> explained_median;
     std::optional<double> explained_whole;
     std::optional<double> share;  ///< explained / explained by the bound of the same kind
+    Faults faults = {};           ///< mean over the expressions in which each is known
 };
 
 struct ExperimentReport {
     std::vector<std::string> subjects;
     std::vector<facs::Expression> expressions;
     bool whole_face = true;  ///< whether the whole face was scored
-    std::string zones;       ///< "truth" or "catalogue"
-    std::string alignment;   ///< "true pose" or "ICP on the stable region"
+    std::string zones;       ///< "truth", "data" or "catalogue"
+    std::vector<std::string> zones_by_catalogue =
+        {};                 ///< expressions whose own zone had to be, though zones says other
+    std::string alignment;  ///< "true pose" or "ICP on the stable region"
     std::optional<TruthOrigin> truth;
     MethodScores nothing;
     std::vector<MethodScores> rows;

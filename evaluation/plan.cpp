@@ -62,6 +62,10 @@ ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const 
     plan.subjects = workspace.shown_subjects();
     plan.whole_face = options.whole_face;
     plan.max_sources = static_cast<std::size_t>(options.max_sources);
+    if (options.zones == ZoneSource::truth && !truth)
+        throw InputError(fmt::format("zones from the truth need one, and {} has none; give data or catalogue",
+                                     workspace.database_root().string()));
+    plan.zones = options.zones != ZoneSource::automatic ? options.zones : truth ? ZoneSource::truth : ZoneSource::data;
     const auto has = [&](const std::string& name) {
         return std::any_of(plan.methods.begin(), plan.methods.end(), [&](const auto& m) { return m->name() == name; });
     };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "animation/method.h"
+#include "evaluation/active_zone.h"
 #include "facs/facs_catalogue.h"
 #include "preprocessing/workspace.h"
 
@@ -25,6 +26,7 @@ struct ExperimentOptions {
     bool reference = true;   ///< true fields beside them, where the database has a truth
     bool whole_face = true;  ///< score the face outside the zone, too
     int max_sources = 0;     ///< per target, the next ones in the list after it; 0 = all other subjects
+    ZoneSource zones = ZoneSource::automatic;  ///< where methods are compared
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
@@ -33,6 +35,7 @@ struct ExperimentOptions {
         visit("reference", self.reference);
         visit("whole_face", self.whole_face);
         visit("max_sources", self.max_sources);
+        visit("zones", self.zones);
     }
     void check() const;  ///< throws InputError
     /// AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 on the left.
@@ -53,7 +56,8 @@ struct ExperimentPlan {
     std::vector<std::string> left_out;              ///< expressions that too few subjects show, with the reason
     std::vector<animation::MethodPointer> methods;  ///< "nothing" first, then those asked for, then the true fields
     bool whole_face = true;
-    std::size_t max_sources = 0;  ///< 0 = all
+    std::size_t max_sources = 0;               ///< 0 = all
+    ZoneSource zones = ZoneSource::catalogue;  ///< not automatic
 
     [[nodiscard]] std::size_t units() const;
     /// The participants whose performances are learned from for one target: the ring that begins after it.
@@ -62,7 +66,8 @@ struct ExperimentPlan {
 
 /// An expression that fewer than 3 subjects show is left out and listed.
 /// @param truth  whether the database has one
-/// @throws InputError for bad options, an expression that the catalogue lacks, or if none is left.
+/// @throws InputError for bad options, zones or methods that need a truth where there is none, an expression that the
+/// catalogue lacks, or if none is left.
 [[nodiscard]] ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace,
                                              const facs::FacsCatalogue& catalogue, const ExperimentOptions& options,
                                              bool truth);

@@ -1,5 +1,7 @@
 #include "evaluation/score.h"
 
+#include <cmath>
+
 #include "geometry/statistics.h"
 
 namespace mimik::evaluation {
@@ -8,6 +10,7 @@ namespace {
 /// The numbers of one case that scores are made of.
 struct CaseNumbers {
     std::optional<double> zone_mm, face_mm, true_mm, step_mm;
+    std::optional<double> lip_error_mm, still_skin_mm, peak_mm, true_peak_mm, lips_over_hole, face_over_hole;
     double left_out = 0;
 
     void take(const CaseRow& row) {
@@ -19,6 +22,14 @@ struct CaseNumbers {
             step_mm = row.value;
         else if (row.metric == "left_out")
             left_out = row.value.value_or(0);
+        else if (row.estimator == "lip_aperture" && row.metric == "error")
+            lip_error_mm = row.value;
+        else if (row.estimator == "still_skin" && row.metric == "mean")
+            still_skin_mm = row.value;
+        else if (row.estimator == "peak")
+            (row.metric == "true" ? true_peak_mm : peak_mm) = row.value;
+        else if (row.estimator == "over_hole" && row.metric == "vertices")
+            (row.region == "mouth" ? lips_over_hole : face_over_hole) = row.value;
     }
 };
 
@@ -56,6 +67,14 @@ public:
         true_nothing_.add(nothing.true_mm);
         step_.add(own.step_mm);
         counts_.left_out_vertices += static_cast<std::size_t>(own.left_out);
+        still_skin_.add(own.still_skin_mm);
+        lips_over_hole_.add(own.lips_over_hole);
+        face_over_hole_.add(own.face_over_hole);
+        if (own.lip_error_mm) lip_errors_mm_.push_back(std::abs(*own.lip_error_mm));
+        if (own.peak_mm && own.true_peak_mm) {
+            peak_.add(own.peak_mm);
+            true_peak_.add(own.true_peak_mm);
+        }
         if (const auto share = explained(*own.zone_mm, *nothing.zone_mm)) explained_.push_back(*share);
         if (*own.zone_mm > *nothing.zone_mm) ++counts_.worse_than_nothing;
     }
@@ -70,13 +89,19 @@ public:
         score.true_error_mm = true_error_.mean();
         score.nothing_true_mm = true_nothing_.mean();
         score.largest_step_mm = step_.mean();
+        if (!lip_errors_mm_.empty()) score.faults.lip_aperture_error_mm = geometry::median(lip_errors_mm_);
+        score.faults.still_skin_mm = still_skin_.mean();
+        if (true_peak_.total > least_motion_mm) score.faults.peak_ratio = peak_.total / true_peak_.total;
+        score.faults.lips_over_hole = lips_over_hole_.mean();
+        score.faults.face_over_hole = face_over_hole_.mean();
         return score;
     }
 
 private:
     Score counts_;
     Sum error_, nothing_, whole_, whole_nothing_, true_error_, true_nothing_, step_;
-    std::vector<double> explained_;
+    Sum still_skin_, peak_, true_peak_, lips_over_hole_, face_over_hole_;
+    std::vector<double> explained_, lip_errors_mm_;
 };
 
 }  // namespace

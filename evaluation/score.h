@@ -18,6 +18,26 @@ inline constexpr const char* baseline_method = "nothing";
 /// near it, and rounding stays far below.
 inline constexpr double least_motion_mm = 1e-4;
 
+/// What the distance to the real scan hardly sees, of one method on one expression or of the mean of its expressions;
+/// what is not known is empty.
+struct Faults {
+    std::optional<double> lip_aperture_error_mm;  ///< median over cases of |aperture of the lips - the real scan's|
+    std::optional<double> still_skin_mm;          ///< mean motion of skin that should hold still, mean over cases
+    std::optional<double> peak_ratio;             ///< sum of the peaks of motion / sum of the true peaks
+    std::optional<double> lips_over_hole;  ///< vertices of the lips over a hole of the real scan, mean over cases
+    std::optional<double> face_over_hole;  ///< the same of all measured vertices
+
+    template <class Self, class Visit>
+    static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("lip_aperture_error_mm", self.lip_aperture_error_mm);
+        visit("still_skin_mm", self.still_skin_mm);
+        visit("peak_ratio", self.peak_ratio);
+        visit("lips_over_hole", self.lips_over_hole);
+        visit("face_over_hole", self.face_over_hole);
+    }
+    bool operator==(const Faults&) const = default;
+};
+
 /// One method on one expression; what is not known is empty.
 struct Score {
     /// 1 - sum err(method) / sum err(doing nothing), active zone; empty below least_motion_mm.
@@ -32,6 +52,7 @@ struct Score {
     std::size_t cases = 0;
     std::size_t worse_than_nothing = 0;
     std::size_t left_out_vertices = 0;  ///< scored as doing nothing
+    Faults faults = {};
 };
 
 /// By method, then by expression.

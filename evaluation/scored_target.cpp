@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "evaluation/over_hole.h"
+
 namespace mimik::evaluation {
 
 using geometry::Point;
@@ -17,6 +19,7 @@ ScoredTarget scored_target(const geometry::FaceSurface& neutral, const geometry:
     surface.reserve(expressive.size());
     for (const auto& p : expressive.vertices_mm) surface.emplace_back(neutral_from_expressive * p);
     target.expressive.emplace(surface, geometry::triangles(expressive, geometry::BridgedVertices::leave_out));
+    target.hole_rim = hole_rim(expressive);
 
     std::vector<std::uint32_t> measured;
     std::vector<Point> queries;

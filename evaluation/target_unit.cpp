@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "evaluation/estimator.h"
 #include "evaluation/score.h"
+#include "evaluation/still_skin.h"
 
 namespace mimik::evaluation {
 
@@ -41,6 +42,9 @@ public:
             for (const auto v : scored_.vertices)
                 scored_.true_displacement_mm.push_back(
                     prepared_.material_points().at(own_.true_expression->displacement_mm, v));
+        scored_.expressive_landmarks = geometry::transformed(own_.expressive.landmarks, own_.neutral_from_expressive);
+        scored_.still = prepared_.has_truth() ? still_by_truth(scored_.true_displacement_mm)
+                                              : still_by_scans(prepared_.surface(), scored_);
     }
 
     std::vector<CaseRow> run() {

@@ -91,7 +91,8 @@ public:
     LearnedMotion(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
                   const animation::Method& method)
         : reader_(workspace), magnitude_(request.magnitude) {
-        const auto learner = method.learner({request.expression, workspace.average(), catalogue, workspace.registrations()});
+        const auto learner =
+            method.learner({request.expression, workspace.average(), catalogue, workspace.registrations()});
         std::vector<animation::LessonPointer> lessons;
         if (method.needs() != animation::SourceKind::none)
             for (const auto& scan :

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -108,31 +109,72 @@ std::string error_table(const evaluation::ExperimentReport& report) {
     return text;
 }
 
+/// "1.4 (AU27 9.8)": the mean over the expressions, and the worst of them where there are several.
+std::string lip_text(const evaluation::ExperimentReport& report, const evaluation::MethodScores& row) {
+    constexpr int digits = 1;  // landmarks are marked to about 1 mm
+    std::string worst;
+    double worst_mm = -1;
+    for (const auto& expression : report.expressions) {
+        const auto& mm = row.per_expression.at(expression.code()).faults.lip_aperture_error_mm;
+        if (!mm || *mm <= worst_mm) continue;
+        worst_mm = *mm;
+        worst = fmt::format(" ({} {:.{}f})", label(expression), worst_mm, digits);
+    }
+    return text_of(row.faults.lip_aperture_error_mm, digits) + (report.expressions.size() > 1 ? worst : "");
+}
+
+std::string faults_table(const evaluation::ExperimentReport& report) {
+    std::string text =
+        "What the distance does not see (means over the expressions; of the lips the worst one, too):\n\n"
+        "| method | kind | lips apart: median error, mm | still skin moves by, mm | peak / true peak | lip vertices "
+        "over "
+        "a hole | all vertices over a hole |\n"
+        "| --- | --- | ---: | ---: | ---: | ---: | ---: |\n";
+    const auto add = [&](const std::string& begin, const evaluation::MethodScores& row) {
+        const auto& faults = row.faults;
+        text += fmt::format("{} {} | {} | {} | {} | {} |\n", begin, lip_text(report, row),
+                            text_of(faults.still_skin_mm, 2), text_of(faults.peak_ratio, 2),
+                            text_of(faults.lips_over_hole, 1), text_of(faults.face_over_hole, 1));
+    };
+    add("| doing nothing | |", report.nothing);
+    for (const auto& row : report.rows) add(begin_row(row), row);
+    return text;
+}
+
+void add_to(nlohmann::json& document, const evaluation::Faults& faults) {
+    evaluation::Faults::each_field(
+        faults, [&](const char* name, const std::optional<double>& value) { document[name] = json_of(value); });
+}
+
 nlohmann::json json_of(const evaluation::Score& s) {
-    return {{"explained", json_of(s.explained)},
-            {"explained_median", json_of(s.explained_median)},
-            {"explained_whole_face", json_of(s.explained_whole)},
-            {"error_mm", json_of(s.error_mm)},
-            {"nothing_mm", json_of(s.nothing_mm)},
-            {"true_error_mm", json_of(s.true_error_mm)},
-            {"nothing_true_mm", json_of(s.nothing_true_mm)},
-            {"largest_step_mm", json_of(s.largest_step_mm)},
-            {"cases", s.cases},
-            {"worse_than_nothing", s.worse_than_nothing},
-            {"left_out_vertices", s.left_out_vertices}};
+    nlohmann::json document = {{"explained", json_of(s.explained)},
+                               {"explained_median", json_of(s.explained_median)},
+                               {"explained_whole_face", json_of(s.explained_whole)},
+                               {"error_mm", json_of(s.error_mm)},
+                               {"nothing_mm", json_of(s.nothing_mm)},
+                               {"true_error_mm", json_of(s.true_error_mm)},
+                               {"nothing_true_mm", json_of(s.nothing_true_mm)},
+                               {"largest_step_mm", json_of(s.largest_step_mm)},
+                               {"cases", s.cases},
+                               {"worse_than_nothing", s.worse_than_nothing},
+                               {"left_out_vertices", s.left_out_vertices}};
+    add_to(document, s.faults);
+    return document;
 }
 
 nlohmann::json json_of(const evaluation::MethodScores& row) {
     nlohmann::json scores;
     for (const auto& [expression, score] : row.per_expression) scores[expression] = json_of(score);
-    return {{"method", row.method},
-            {"kind", kind_name(row.kind)},
-            {"reference", row.reference},
-            {"explained", json_of(row.explained)},
-            {"explained_median", json_of(row.explained_median)},
-            {"explained_whole_face", json_of(row.explained_whole)},
-            {"share", json_of(row.share)},
-            {"expressions", scores}};
+    nlohmann::json document = {{"method", row.method},
+                               {"kind", kind_name(row.kind)},
+                               {"reference", row.reference},
+                               {"explained", json_of(row.explained)},
+                               {"explained_median", json_of(row.explained_median)},
+                               {"explained_whole_face", json_of(row.explained_whole)},
+                               {"share", json_of(row.share)},
+                               {"expressions", scores}};
+    add_to(document, row.faults);
+    return document;
 }
 
 }  // namespace
@@ -140,9 +182,13 @@ nlohmann::json json_of(const evaluation::MethodScores& row) {
 std::string to_markdown(const evaluation::ExperimentReport& report) {
     std::string text = fmt::format(
         "Explained fraction: 1 - error / error of doing nothing, mean unsigned distance in the active zone to the real "
-        "expressive scan ({} subjects, zones from the {}, alignment by {}).\n\n",
-        report.subjects.size(), report.zones, report.alignment);
-    text += explained_table(report) + "\n" + error_table(report);
+        "expressive scan ({} subjects, zones from the {}{}, alignment by {}).\n\n",
+        report.subjects.size(), report.zones,
+        report.zones_by_catalogue.empty()
+            ? std::string()
+            : fmt::format(" (of {} from the catalogue)", fmt::join(report.zones_by_catalogue, ", ")),
+        report.alignment);
+    text += explained_table(report) + "\n" + error_table(report) + "\n" + faults_table(report);
     if (report.failures.empty()) return text;
     text += fmt::format("\n{}; a case without an answer is scored as doing nothing:\n\n",
                         base::counted(report.failures.size(), "failure"));
@@ -153,17 +199,24 @@ std::string to_markdown(const evaluation::ExperimentReport& report) {
 std::string to_csv(const evaluation::ExperimentReport& report) {
     std::string text =
         "method,kind,reference,expression,explained,explained_median,explained_whole_face,error_mm,nothing_mm,true_"
-        "error_mm,nothing_true_mm,largest_step_mm,cases,worse_than_nothing,left_out_vertices\n";
+        "error_mm,nothing_true_mm,largest_step_mm,cases,worse_than_nothing,left_out_vertices";
+    const evaluation::Faults names;
+    evaluation::Faults::each_field(names, [&](const char* name, const auto&) { text += fmt::format(",{}", name); });
+    text += "\n";
     constexpr int digits = 6;
     for (const auto& row : report.rows)
         for (const auto& expression : report.expressions) {
             const auto& s = row.per_expression.at(expression.code());
-            text += fmt::format("\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.method, kind_name(row.kind),
+            text += fmt::format("\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{}", row.method, kind_name(row.kind),
                                 row.reference ? 1 : 0, expression.code(), text_of(s.explained, digits),
                                 text_of(s.explained_median, digits), text_of(s.explained_whole, digits),
                                 text_of(s.error_mm, digits), text_of(s.nothing_mm, digits),
                                 text_of(s.true_error_mm, digits), text_of(s.nothing_true_mm, digits),
                                 text_of(s.largest_step_mm, digits), s.cases, s.worse_than_nothing, s.left_out_vertices);
+            evaluation::Faults::each_field(s.faults, [&](const char*, const std::optional<double>& value) {
+                text += "," + text_of(value, digits);
+            });
+            text += "\n";
         }
     return text;
 }
@@ -178,6 +231,7 @@ std::string to_json(const evaluation::ExperimentReport& report) {
                        {"subjects", report.subjects},
                        {"expressions", expressions},
                        {"zones", report.zones},
+                       {"zones_by_catalogue", report.zones_by_catalogue},
                        {"alignment", report.alignment},
                        {"truth", report.truth ? nlohmann::json{{"seed", report.truth->seed},
                                                                {"face_model", report.truth->face_model},

@@ -8,6 +8,10 @@ borrow_workspace
 for name in scores.md scores.csv scores.json cases.csv; do [ -s "scores/$name" ] || fail "scores/$name is not there"; done
 cmp scores.json scores/scores.json
 for line in '"marking_jitter": 1.0' '"spikes": 0.0' '"expressions": "4,12,12L"' '"neutrals": 2' '"subjects": 3'; do grep -qF "$line" scores.json || fail "scores.json has no $line"; done
+grep -qF '"zones": "truth"' scores.json
+"$mimik" evaluate work1 --expression 12 --method mean --no-reference --no-whole-face --zones catalogue -o drawn --json --quiet >drawn.json
+grep -qF '"zones": "catalogue"' drawn.json
+expect_code 2 "--zones" "$mimik" evaluate work1 --expression 12 --zones guess
 claim "scores are written as text, table and JSON, and JSON is what is printed"
 # A comment line ends each unit of work, an expression of a target. No comma stands in a subject, an expression or a
 # method: a row is split at every comma that is not within quotes.

@@ -31,7 +31,7 @@ protected:
         return true_motion_on_average(*average_, *neutral_, at_rest, smiling.displacement_mm);
     }
     static ActiveZone zone(double share = 0.2) {
-        TrueZone sum(*average_);
+        MotionZone sum(*average_);
         sum.add(motion());
         return sum.zone(test::expression("12"), share);
     }
@@ -103,7 +103,7 @@ TEST_F(ActiveZoneTest, a_smaller_share_is_a_larger_zone_and_no_subject_is_refuse
         return std::count(found.active.begin(), found.active.end(), 1);
     };
     EXPECT_GT(count(0.1), count(0.2));
-    EXPECT_THROW((void)TrueZone(*average_).zone(test::expression("12")), InputError);
+    EXPECT_THROW((void)MotionZone(*average_).zone(test::expression("12")), InputError);
 }
 
 TEST_F(ActiveZoneTest, of_several_subjects_is_that_of_their_mean) {
@@ -113,7 +113,7 @@ TEST_F(ActiveZoneTest, of_several_subjects_is_that_of_their_mean) {
         twice.push_back(2 * way);
         opposite.push_back(-way);
     }
-    TrueZone sum(*average_);
+    MotionZone sum(*average_);
     sum.add(one);
     sum.add(twice);
     sum.add(opposite);

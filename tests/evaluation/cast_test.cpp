@@ -1,5 +1,6 @@
 #include "evaluation/cast.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include <gmock/gmock.h>
@@ -146,6 +147,66 @@ TEST_F(CastTest, of_more_than_one_batch_is_in_the_order_of_the_scans) {
         ASSERT_TRUE(cast.lessons.lesson(0, k));
         EXPECT_EQ(cast.lessons.lesson(0, k), cast.lessons.lesson(1, k));  // shared with the first
     }
+}
+
+TEST_F(CastTest, the_zone_of_the_data_is_where_the_truth_moves_most_and_not_where_it_holds_still) {
+    const PerformanceReader reader(*workspace_);
+    const auto expression = test::expression("12");
+    const animation::LearningTask task{expression, workspace_->average(), facs::builtin_catalogue()};
+    FailureList failures;
+    const std::vector scans = {smile(0), smile(1), smile(2)};
+    const auto of = [&](ZoneSource source) { return gather_cast(reader, task, scans, {}, failures, source); };
+    const auto truth = of(ZoneSource::truth), data = of(ZoneSource::data), drawn = of(ZoneSource::catalogue);
+    EXPECT_EQ(data.zone_from, ZoneSource::data);
+    EXPECT_EQ(drawn.zone_from, ZoneSource::catalogue);
+    EXPECT_EQ(of(ZoneSource::automatic).zone.active, truth.zone.active);
+    EXPECT_EQ(drawn.zone.active,
+              active_zone_from_catalogue(expression, workspace_->average(), facs::builtin_catalogue()).active);
+    const auto& true_mm = truth.zone.displacement_mm;
+    const double largest_mm = *std::max_element(true_mm.begin(), true_mm.end());
+    std::size_t active = 0;
+    for (std::size_t v = 0; v < true_mm.size(); ++v) {
+        active += data.zone.active[v] ? 1 : 0;
+        // Along the smooth cheek the scans show only part of the motion: half of it is far above the share of 0.2, and
+        // where nothing moves what registration invents stays far below.
+        if (true_mm[v] > 0.5 * largest_mm) {
+            EXPECT_TRUE(data.zone.active[v]) << workspace_->average().grid.vertices_mm[v].transpose();
+        }
+        if (workspace_->average().grid.vertices_mm[v].y() > 20) {
+            EXPECT_FALSE(data.zone.active[v]) << workspace_->average().grid.vertices_mm[v].transpose();
+        }
+    }
+    EXPECT_GT(active, 100U);
+    EXPECT_TRUE(data.remarks.empty());
+    EXPECT_TRUE(failures.sorted().empty());
+}
+
+/// AU 17 of people without a truth is a smile of 0.5 mm.
+TEST(CastWithoutTruth, takes_the_zone_of_the_catalogue_with_a_remark_where_the_scans_show_next_to_nothing) {
+    const database::TemporaryFolder folder;
+    for (int k = 0; k < 3; ++k)
+        test::write_analytic_scan(folder.path() / "db", "bs00" + std::to_string(k) + "_LFAU_17_0",
+                                  {test::analytic_scales[k], 0.5}, test::analytic_pose(k));
+    const auto workspace = test::analytic_workspace(folder.path());
+    const PerformanceReader reader(workspace);
+    FailureList failures;
+    const auto cast_of = [&](const char* code, ZoneSource source) {
+        const auto expression = test::expression(code);
+        std::vector<database::ScanId> scans;
+        for (const auto& subject : workspace.subjects()) scans.push_back(*workspace.scan_of(subject, expression));
+        return gather_cast(reader, {expression, workspace.average(), facs::builtin_catalogue()}, scans, {}, failures,
+                           source);
+    };
+    const auto small = cast_of("17", ZoneSource::automatic);
+    EXPECT_EQ(small.zone_from, ZoneSource::catalogue);
+    EXPECT_EQ(
+        small.zone.active,
+        active_zone_from_catalogue(test::expression("17"), workspace.average(), facs::builtin_catalogue()).active);
+    EXPECT_THAT(
+        small.remarks,
+        testing::ElementsAre(testing::StartsWith("17: zone from the catalogue, the scans show a mean motion of")));
+    EXPECT_EQ(cast_of("12", ZoneSource::automatic).zone_from, ZoneSource::data);
+    EXPECT_THROW((void)cast_of("12", ZoneSource::truth), InputError);
 }
 
 /// Three subjects whose HAPPY is the smile of their left half alone: AU12 moves both halves, nobody shows AU6.

@@ -127,6 +127,26 @@ TEST_F(Experiment, rows_on_disk_give_the_scores_of_the_report_again) {
               row(report, "thesis").per_expression.at("12").largest_step_mm);
 }
 
+TEST_F(Experiment, zones_are_those_that_were_asked_for) {
+    auto options = smile_options();
+    options.methods = {animation::method_by_name("default")};
+    for (const auto zones : {ZoneSource::data, ZoneSource::catalogue}) {
+        options.zones = zones;
+        const auto report = run(*workspace_, options);
+        EXPECT_EQ(report.zones, to_string(zones));
+        EXPECT_TRUE(report.zones_by_catalogue.empty());
+        EXPECT_TRUE(report.truth);  // the rest is as with the truth's zones
+        EXPECT_NE(report.nothing.per_expression.at("12").nothing_mm,
+                  report_->nothing.per_expression.at("12").nothing_mm);
+    }
+    options.zones = ZoneSource::truth;
+    EXPECT_EQ(run(*workspace_, options).nothing.per_expression.at("12").nothing_mm,
+              report_->nothing.per_expression.at("12").nothing_mm);
+    EXPECT_THAT(
+        message_of<InputError>([&] { (void)plan_experiment(*workspace_, facs::builtin_catalogue(), options, false); }),
+        HasSubstr("zones from the truth need one"));
+}
+
 TEST_F(Experiment, fewer_sources_are_fewer_cases) {
     auto options = smile_options();
     options.max_sources = 1;
@@ -218,7 +238,7 @@ TEST_F(Experiment, a_damaged_face_and_a_hidden_subject_take_no_part_and_the_rest
     options.methods = {animation::method_by_name("default")};
     const auto report = run(workspace, options);
     EXPECT_THAT(report.subjects, ElementsAre("bs000", "bs001", "bs002", "bs004"));
-    EXPECT_EQ(report.zones, "catalogue");
+    EXPECT_EQ(report.zones, "data");
     EXPECT_EQ(report.alignment, "ICP on the stable region");
     EXPECT_EQ(report.rows.size(), 1U);  // no truth, no reference
     const auto& score = report.rows[0].per_expression.at("12");

@@ -88,6 +88,39 @@ TEST(Score, is_not_known_where_doing_nothing_is_not_off) {
     EXPECT_EQ(score.error_mm, 1);
 }
 
+/// Faults of three cases: rows that say nothing of one are not zeros.
+TEST(Score, of_faults_is_told_of_the_cases_that_know_them) {
+    std::vector<CaseRow> rows;
+    const auto add = [&](const std::string& method, const std::string& source, std::optional<double> lip_error_mm,
+                         double still_mm, double peak_mm, std::optional<double> true_peak_mm, double over_hole) {
+        const CaseKey key{source, "bs000", "27", method};
+        rows.push_back({key, "surface_distance", "zone", "mean", 1, "mm", ""});
+        if (lip_error_mm) rows.push_back({key, "lip_aperture", "mouth", "error", lip_error_mm, "mm", ""});
+        rows.push_back({key, "lip_aperture", "mouth", "real", 99, "mm", ""});
+        rows.push_back({key, "still_skin", "face", "mean", still_mm, "mm", ""});
+        rows.push_back({key, "peak", "zone", "animated", peak_mm, "mm", ""});
+        if (true_peak_mm) rows.push_back({key, "peak", "zone", "true", true_peak_mm, "mm", ""});
+        rows.push_back({key, "over_hole", "face", "vertices", over_hole, "vertices", ""});
+        rows.push_back({key, "over_hole", "mouth", "vertices", 0, "vertices", ""});
+    };
+    add("nothing", "", -8, 0, 0, 10, 300);
+    add("own", "bs001", -5, 0.1, 6, 10, 40);
+    add("own", "bs002", 1, 0.2, 9, 10, 10);
+    add("own", "bs003", std::nullopt, 0.6, 100, std::nullopt, 10);
+    const auto table = scores_of([&](const auto& visit) {
+        for (const auto& row : rows) visit(row);
+    });
+    const auto& own = table.at("own").at("27").faults;
+    EXPECT_EQ(own.lip_aperture_error_mm, 3);  // of 5 and 1
+    EXPECT_DOUBLE_EQ(*own.still_skin_mm, 0.3);
+    EXPECT_EQ(own.peak_ratio, 0.75);
+    EXPECT_EQ(own.lips_over_hole, 0);
+    EXPECT_EQ(own.face_over_hole, 20);
+    EXPECT_EQ(table.at("nothing").at("27").faults.lip_aperture_error_mm, 8);
+    EXPECT_EQ(table.at("nothing").at("27").faults.peak_ratio, 0);
+    EXPECT_EQ(score_of({{"nothing", "", 2}, {"own", "bs001", 1}}, "own").faults, Faults());
+}
+
 TEST(Score, compares_each_target_with_its_own_doing_nothing) {
     std::vector<CaseRow> rows;
     for (const auto& [target, nothing_mm, own_mm] : {std::tuple("bs000", 2.0, 1.0), std::tuple("bs001", 4.0, 1.0)}) {

@@ -27,6 +27,7 @@ evaluation::Score score(double explained) {
     score.cases = 6;
     score.worse_than_nothing = 3;
     score.left_out_vertices = 1;
+    score.faults = {1.25, 0.125, 0.75, 20.0, std::nullopt};
     return score;
 }
 
@@ -99,7 +100,7 @@ TEST(ScoreTables, leave_blank_what_is_not_known_and_never_say_zero) {
     for (const auto* key : {"explained", "error_mm", "true_error_mm", "largest_step_mm"})
         EXPECT_TRUE(row.at("expressions").at("12").at(key).is_null()) << key;
     EXPECT_EQ(row.at("expressions").at("12").at("cases"), 0);
-    EXPECT_THAT(to_csv(report), HasSubstr("\"default\",one source,0,12,,,,,,,,,0,0,0\n"));
+    EXPECT_THAT(to_csv(report), HasSubstr("\"default\",one source,0,12,,,,,,,,,0,0,0,,,,,\n"));
     EXPECT_THAT(to_markdown(report), HasSubstr("| default | one source |  |  |  |  |  |  |"));
 }
 
@@ -107,7 +108,49 @@ TEST(ScoreTables, of_a_true_field_have_no_largest_step) {
     const auto document = json::parse(to_json(smile_report()));
     for (const auto& row : document.at("rows"))
         EXPECT_EQ(row.at("expressions").at("12").at("largest_step_mm").is_null(), row.at("reference"));
-    EXPECT_THAT(to_csv(smile_report()), HasSubstr(",,6,3,1\n"));
+    EXPECT_THAT(to_csv(smile_report()), HasSubstr(",,6,3,1,1.250000,"));
+}
+
+TEST(ScoreTables, have_a_second_one_of_what_the_distance_does_not_see) {
+    auto report = smile_report();
+    for (auto* row : {&report.nothing, &report.rows[0]}) row->faults = score(0).faults;
+    const auto document = json::parse(to_json(report)).at("rows");
+    for (const auto& part : {document.at(0), document.at(0).at("expressions").at("12")}) {
+        EXPECT_EQ(part.at("lip_aperture_error_mm"), 1.25);
+        EXPECT_EQ(part.at("still_skin_mm"), 0.125);
+        EXPECT_EQ(part.at("peak_ratio"), 0.75);
+        EXPECT_EQ(part.at("lips_over_hole"), 20);
+        EXPECT_TRUE(part.at("face_over_hole").is_null());
+    }
+    EXPECT_TRUE(document.at(1).at("still_skin_mm").is_null());
+    EXPECT_THAT(to_csv(report), testing::StartsWith("method,kind,"));
+    EXPECT_THAT(to_csv(report), HasSubstr(",left_out_vertices,lip_aperture_error_mm,still_skin_mm,peak_ratio,lips_over_"
+                                          "hole,face_over_hole\n"));
+    EXPECT_THAT(to_csv(report), HasSubstr(",6,3,1,1.250000,0.125000,0.750000,20.000000,\n"));
+    EXPECT_THAT(to_markdown(report), HasSubstr("| doing nothing | | 1.2 | 0.12 | 0.75 | 20.0 |  |\n"));
+    EXPECT_THAT(to_markdown(report), HasSubstr("| default | one source | 1.2 | 0.12 | 0.75 | 20.0 |  |\n"));
+    EXPECT_THAT(to_markdown(report), HasSubstr("| *true field, mean* | mean |  |  |  |  |  |\n"));
+}
+
+TEST(ScoreTables, say_of_which_expressions_the_catalogue_drew_the_zone) {
+    auto report = smile_report();
+    EXPECT_THAT(to_markdown(report), HasSubstr("zones from the truth, alignment"));
+    EXPECT_EQ(json::parse(to_json(report)).at("zones_by_catalogue"), json::array());
+    report.zones = "data";
+    report.zones_by_catalogue = {"43", "5"};
+    EXPECT_THAT(to_markdown(report), HasSubstr("zones from the data (of 43, 5 from the catalogue), alignment"));
+    EXPECT_EQ(json::parse(to_json(report)).at("zones_by_catalogue"), (json{"43", "5"}));
+}
+
+TEST(ScoreTables, of_several_expressions_name_the_one_whose_lips_are_worst) {
+    auto report = smile_report();
+    report.expressions = test::expressions({"12", "27"});
+    for (auto* row : {&report.nothing, &report.rows[0], &report.rows[1]}) {
+        row->per_expression["27"] = score(0);
+        row->per_expression["27"].faults.lip_aperture_error_mm = 9.75;
+        row->faults.lip_aperture_error_mm = 5.5;
+    }
+    EXPECT_THAT(to_markdown(report), HasSubstr("| default | one source | 5.5 (AU27 9.8) |"));
 }
 
 TEST(ScoreTables, promise_one_distance_where_no_truth_is_known_and_list_the_failures) {
