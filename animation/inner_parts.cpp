@@ -1,6 +1,7 @@
 #include "animation/inner_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -57,6 +58,12 @@ struct Places {
     }
 };
 
+bool has_places(const Landmarks& landmarks) {
+    return std::ranges::all_of(std::array{"nose_tip", "eye_outer_left", "eye_inner_left", "eye_outer_right",
+                                          "eye_inner_right", "mouth_corner_left", "mouth_corner_right"},
+                               [&](const char* name) { return landmarks.find(name) != nullptr; });
+}
+
 /// 0 above the line where the lips meet, 1 below it.
 double below_lips(double above_mm) {
     constexpr double blend_mm = 3.0;
@@ -71,10 +78,13 @@ InnerParts find_inner_parts(std::span<const Point> vertices_mm, std::span<const 
     constexpr double skin_mm = 2.0;  // lashes, brows and beards lie on the skin
     InnerParts found{std::vector<double>(vertices_mm.size(), 0.0), std::vector<double>(vertices_mm.size(), 0.0)};
     const auto parts = connected_parts(vertices_mm, triangles);
-    if (parts.size() < 2) return found;
+    if (parts.size() < 2 || !has_places(landmarks)) return found;
     const Places places(landmarks);
-    const auto nose =
-        geometry::nearest_point(vertices_mm, landmarks.position_mm("nose_tip"), [](std::size_t) { return true; });
+    std::vector<std::uint8_t> of_a_part(vertices_mm.size(), 0);
+    for (const auto& part : parts)
+        for (const auto v : part) of_a_part[v] = 1;
+    const auto nose = geometry::nearest_point(vertices_mm, landmarks.position_mm("nose_tip"),
+                                              [&](std::size_t v) { return of_a_part[v] != 0; });
     for (const auto& part : parts) {
         if (std::binary_search(part.begin(), part.end(), static_cast<std::uint32_t>(nose.value_or(0)))) continue;
         std::vector<double> behind;
@@ -103,10 +113,12 @@ InnerParts find_inner_parts(std::span<const Point> vertices_mm, std::span<const 
 geometry::Transform jaw_turn(const Landmarks& landmarks, const Vector& chin_motion_mm) {
     // The joints lie before the ears: behind and below the outer eye corners, by shares of their distance.
     constexpr double behind = 0.6, below = 0.35;
+    const auto* chin = landmarks.find("chin");
+    if (!chin) return geometry::Transform::Identity();
     const double eyes_mm = geometry::outer_eye_distance_mm(landmarks);
     const Point corners = (landmarks.position_mm("eye_outer_left") + landmarks.position_mm("eye_outer_right")) / 2;
     const Point joint = corners - Vector(0, below * eyes_mm, behind * eyes_mm);
-    const Vector from = landmarks.position_mm("chin") - joint, to = from + chin_motion_mm;
+    const Vector from = chin->position_mm - joint, to = from + chin_motion_mm;
     // About +x, which takes +y to +z and so the chin, which lies before the joints, down and back.
     const double angle = std::max(0.0, std::atan2(to.z(), to.y()) - std::atan2(from.z(), from.y()));
     return geometry::Transform(Eigen::Translation3d(joint) * Eigen::AngleAxisd(angle, Vector::UnitX()) *

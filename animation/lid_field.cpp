@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "geometry/topology.h"
+#include "geometry/weld.h"
 
 namespace mimik::animation {
 
@@ -151,7 +152,14 @@ struct Lids {
 geometry::VertexMask rim_of(const geometry::FaceSurface& surface) {
     geometry::VertexMask rim(surface.size(), 0);
     if (!surface.grid) {
-        for (const auto& edge : geometry::border_edges(surface.triangles)) rim[edge[0]] = rim[edge[1]] = 1;
+        // Seams of texture coordinates, and meshes whose faces share no vertex, have no border there.
+        const auto first = geometry::weld(surface.vertices_mm, surface.triangles);
+        std::vector<geometry::Triangle> welded;
+        for (const auto& t : surface.triangles) welded.push_back({first[t[0]], first[t[1]], first[t[2]]});
+        geometry::VertexMask on_border(surface.size(), 0);
+        for (const auto& edge : geometry::border_edges(welded)) on_border[edge[0]] = on_border[edge[1]] = 1;
+        for (std::size_t v = 0; v < rim.size(); ++v)
+            rim[v] = first[v] != geometry::not_welded && on_border[first[v]] ? 1 : 0;
         return rim;
     }
     const auto rows = static_cast<std::size_t>(surface.grid->rows), cols = static_cast<std::size_t>(surface.grid->cols);

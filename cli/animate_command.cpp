@@ -115,7 +115,11 @@ Chosen choose(const Arguments& arguments, const preprocessing::Workspace& worksp
         auto model = read_model(workspace, file, arguments.target, here, chosen.remarks);
         // The template is bent on to the target once for all models that stand on it.
         if (model.dense) {
-            modeling::share_registrations(*model.dense, workspace.registrations());
+            try {
+                modeling::share_registrations(*model.dense, workspace.registrations());
+            } catch (const InputError&) {
+                // The workspace's average face has no template: the model has its own.
+            }
             for (const auto& earlier : chosen.models)
                 if (earlier.dense) modeling::share_registrations(*model.dense, earlier.dense->registrations);
         }

@@ -32,7 +32,8 @@ struct Arguments {
     std::vector<std::string> subjects, expressions;
 };
 
-/// The first neutral scan of every subject that is asked for, and their other scans of the expressions that are.
+/// The neutral scans of every subject that is asked for, and their scans of the expressions that are. A second neutral
+/// scan is registered as an expression is.
 std::vector<database::ScanId> chosen_scans(const preprocessing::Workspace& workspace, Arguments& arguments) {
     for (auto& subject : arguments.subjects) {
         subject = subject_named(workspace, subject);

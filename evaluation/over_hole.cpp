@@ -135,7 +135,7 @@ public:
     [[nodiscard]] std::vector<Measure> measure(const JudgedFace& face) const override {
         const auto& target = face.target;
         const auto& neutral = face.neutral;
-        if (target.hole_rim.empty()) return {};
+        if (target.hole_rim.empty() || !target.whole_face) return {};
         std::vector<std::uint32_t> asked;
         std::vector<Point> moved_mm;
         for (std::uint32_t v = 0; v < neutral.size(); ++v) {

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "base/csv.h"
+#include "base/errors.h"
+#include "base/file.h"
 #include "base/parallel.h"
 #include "preprocessing/kept_registrations.h"
 
@@ -13,6 +15,17 @@ namespace mimik::preprocessing {
 using database::ScanId;
 
 namespace {
+
+/// Whoever asks for registrations wants the meshes, too.
+void check_kept(const KeptRegistrations& registrations, const Face& face) {
+    const auto stem = registrations.stem(face).string();
+    for (const char* suffix : {".ply", ".json"})
+        if (!base::is_there(stem + suffix))
+            throw InputError(
+                fmt::format("{}{} could not be written; see to the folder's permissions and to room on "
+                            "the disk",
+                            stem, suffix));
+}
 
 ScanRegistration register_scan(const Workspace& workspace, const ScanId& id) {
     ScanRegistration found;
@@ -25,8 +38,11 @@ ScanRegistration register_scan(const Workspace& workspace, const ScanId& id) {
             const auto bent = registrations.neutral(neutral);
             found.matched_share = bent.matched_share;
             found.residual_rms_mm = bent.residual_rms_mm;
+            check_kept(registrations, neutral);
         } else {
-            const auto moved = registrations.motion(neutral, workspace.face(id));
+            const auto expressive = workspace.face(id);
+            const auto moved = registrations.motion(neutral, expressive);
+            check_kept(registrations, expressive);
             found.matched_share = moved.matched_share;
             found.residual_rms_mm = moved.residual_rms_mm;
             found.still_controls = moved.still_controls;

@@ -34,7 +34,10 @@ void TemplateRegistrationOptions::check() const {
     above_zero("far_stillness", far_stillness);
     if (!(far_from_mm >= 0 && far_to_mm > far_from_mm))
         throw InputError(fmt::format("stillness rises from {} to {} mm; give a farther end", far_from_mm, far_to_mm));
-    if (!(far_growth >= 0)) throw InputError(fmt::format("far_growth is {}; give 0 or more", far_growth));
+    if (!(far_growth >= 0 && std::isfinite(far_growth)))
+        throw InputError(fmt::format("far_growth is {}; give 0 or more", far_growth));
+    if (!(arcs_from_parting_mm >= 0))
+        throw InputError(fmt::format("arcs_from_parting_mm is {}; give 0 or more", arcs_from_parting_mm));
     if (!(least_matched >= 0 && least_matched <= 1))
         throw InputError(fmt::format("least_matched is {}; give a share from 0 to 1", least_matched));
     if (!(still_motion_mm >= 0))
