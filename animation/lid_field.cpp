@@ -33,6 +33,9 @@ constexpr double model_from_below = 0.10, model_to_below = 0.30;  ///< and on th
 constexpr double model_aside = 0.20;                              ///< and beside the corners
 constexpr double clearance_mm = 0.2;                              ///< that lids keep from the eyeball
 constexpr double rim_mm = 4.5;  ///< a border of the surface so near the margin is the margin; steps of a grid are lower
+/// Of closed lids of a mesh: margins are edges of some thickness, and press. A scan's hole ends beyond the margins, and
+/// its rim goes too far as it is.
+constexpr double mesh_overlap_mm = 0.4;
 constexpr double most_step_mm = 4.0;  ///< between lids that meet; more is no lid
 
 double smooth_step(double t) {
@@ -210,7 +213,8 @@ double least_distance_mm(const EyeLids& eye, const Vector& local) {
 }
 
 /// Where a vertex of the lids goes, in the frame of the eye.
-Vector slid(const EyeLids& eye, const LidPlace& place, const facs::LidMotion& motion) {
+/// @param overlap_mm  of closed lids
+Vector slid(const EyeLids& eye, const LidPlace& place, const facs::LidMotion& motion, double overlap_mm) {
     const auto& margin = place.margin;
     const double height = margin.upper_rad - margin.lower_rad;
     const double lower_to = margin.lower_rad + place.moves * motion.lower_up * height;
@@ -231,7 +235,8 @@ Vector slid(const EyeLids& eye, const LidPlace& place, const facs::LidMotion& mo
         const double share = (elevation - margin.lower_rad) / height;
         elevation += place.lid * (lower_to + share * (upper_to - lower_to) - elevation);
     } else {
-        elevation += place.lid * (upper ? upper_to - margin.upper_rad : lower_to - margin.lower_rad);
+        const double pressed_rad = smooth_step(5.0 * closed - 4.0) * overlap_mm / eye.radius_mm;
+        elevation += place.lid * (upper ? upper_to - pressed_rad - margin.upper_rad : lower_to - margin.lower_rad);
     }
     // Lids that meet lie in one line: the upper one comes as near to the axis as the lower one is.
     if (upper)
@@ -272,6 +277,7 @@ void slide_lids(const PreparedTarget& target, const facs::Expression& expression
             continue;
         }
         const auto& normalised = target.normalised(Normalisation::similarity);
+        const double overlap_mm = target.surface().grid ? 0.0 : mesh_overlap_mm;
         const Eigen::Matrix3d target_from_eye =
             normalised.average_from_target.linear().inverse() * eye.axes.transpose();
         for (const auto& place : side == Side::left ? lids.left : lids.right) {
@@ -280,7 +286,8 @@ void slide_lids(const PreparedTarget& target, const facs::Expression& expression
                 mm.setZero();
                 continue;
             }
-            const Vector way = slid(eye, place, *motion) - eye.local_mm(normalised.vertices_mm[place.vertex]);
+            const Vector way =
+                slid(eye, place, *motion, overlap_mm) - eye.local_mm(normalised.vertices_mm[place.vertex]);
             mm += place.slides * (target_from_eye * way - mm);
         }
         for (std::size_t v = 0; v < field.size(); ++v)
