@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include "geometry/disjoint_sets.h"
 #include "geometry/face_axes.h"
 #include "geometry/point_index.h"
 #include "geometry/statistics.h"
+#include "geometry/topology.h"
 #include "geometry/weld.h"
 
 namespace mimik::animation {
@@ -19,20 +19,13 @@ using geometry::Vector;
 
 namespace {
 
-/// Vertices that hang together by triangles or by place, each part in ascending order.
-std::vector<std::vector<std::uint32_t>> connected_parts(std::span<const Point> vertices_mm,
-                                                        std::span<const geometry::Triangle> triangles) {
-    const auto first = geometry::weld(vertices_mm, triangles);
-    geometry::DisjointSets sets(vertices_mm.size());
-    for (const auto& t : triangles) {
-        sets.join(first[t[0]], first[t[1]]);
-        sets.join(first[t[0]], first[t[2]]);
-    }
-    std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
-    for (std::uint32_t v = 0; v < vertices_mm.size(); ++v)
-        if (first[v] != geometry::not_welded) by_root[sets.root(first[v])].push_back(v);
+/// Each part in ascending order.
+std::vector<std::vector<std::uint32_t>> vertices_of_parts(std::span<const std::uint32_t> part_of) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_part;
+    for (std::uint32_t v = 0; v < part_of.size(); ++v)
+        if (part_of[v] != geometry::not_welded) by_part[part_of[v]].push_back(v);
     std::vector<std::vector<std::uint32_t>> parts;
-    for (auto& [root, part] : by_root) parts.push_back(std::move(part));
+    for (auto& [part, vertices] : by_part) parts.push_back(std::move(vertices));
     return parts;
 }
 
@@ -77,14 +70,12 @@ InnerParts find_inner_parts(std::span<const Point> vertices_mm, std::span<const 
                             const Landmarks& landmarks, std::span<const double> behind_mm) {
     constexpr double skin_mm = 2.0;  // lashes, brows and beards lie on the skin
     InnerParts found{std::vector<double>(vertices_mm.size(), 0.0), std::vector<double>(vertices_mm.size(), 0.0)};
-    const auto parts = connected_parts(vertices_mm, triangles);
+    const auto part_of = geometry::connected_parts(vertices_mm, triangles);
+    const auto parts = vertices_of_parts(part_of);
     if (parts.size() < 2 || !has_places(landmarks)) return found;
     const Places places(landmarks);
-    std::vector<std::uint8_t> of_a_part(vertices_mm.size(), 0);
-    for (const auto& part : parts)
-        for (const auto v : part) of_a_part[v] = 1;
     const auto nose = geometry::nearest_point(vertices_mm, landmarks.position_mm("nose_tip"),
-                                              [&](std::size_t v) { return of_a_part[v] != 0; });
+                                              [&](std::size_t v) { return part_of[v] != geometry::not_welded; });
     for (const auto& part : parts) {
         if (std::binary_search(part.begin(), part.end(), static_cast<std::uint32_t>(nose.value_or(0)))) continue;
         std::vector<double> behind;

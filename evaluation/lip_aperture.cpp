@@ -16,6 +16,7 @@ namespace {
 
 // Landmarks are marked to about 1 mm, so 2 mm off the line between the lips is the marked lip's own skin.
 constexpr double into_lip_mm = 2.0;
+constexpr double least_share_of_way = 0.5;
 constexpr double reach_mm = 3.0;  // skin farther from the place than that is no answer for it
 
 /// From the inner border of the lower lip to that of the upper one.
@@ -34,9 +35,14 @@ std::optional<Vector> motion_of_lip(const JudgedFace& face, std::string_view inn
     if (!inner || !outer) return std::nullopt;
     const Vector height = outer->position_mm - inner->position_mm;
     // Of a thin lip not beyond its middle.
-    const Point place = inner->position_mm + std::min(into_lip_mm, 0.5 * height.norm()) * height.stableNormalized();
-    const auto nearest =
-        geometry::nearest_point(neutral.vertices_mm, place, [&](std::size_t v) { return neutral.measured[v] != 0; });
+    const double into_mm = std::min(into_lip_mm, 0.5 * height.norm());
+    const Vector outward = height.stableNormalized();
+    const Point place = inner->position_mm + into_mm * outward;
+    // Where a scan lacks the lip's own skin, that between the lips is nearest and says nothing of either.
+    const auto nearest = geometry::nearest_point(neutral.vertices_mm, place, [&](std::size_t v) {
+        return neutral.measured[v] != 0 &&
+               outward.dot(neutral.vertices_mm[v] - inner->position_mm) >= least_share_of_way * into_mm;
+    });
     if (!nearest || (neutral.vertices_mm[*nearest] - place).norm() > reach_mm) return std::nullopt;
     return face.way_mm(static_cast<std::uint32_t>(*nearest));
 }

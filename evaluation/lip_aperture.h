@@ -16,7 +16,8 @@ struct LipAperture {
 
 /// The animated one is the gap between the neutral face's inner lips, and what the motions of upper and lower lip add
 /// to it. Each is taken from the measured vertex that lies nearest to a point 2 mm from the inner landmark towards the
-/// outer one: on closed lips the vertex at the inner landmark itself could belong to the wrong lip.
+/// outer one, and at least half as far that way: on closed lips a vertex at the inner landmark could belong to the
+/// wrong lip.
 /// @return empty: a landmark is missing in one of the scans, or no skin was measured within 3 mm of the place
 [[nodiscard]] std::optional<LipAperture> lip_aperture(const JudgedFace& face);
 

@@ -61,31 +61,29 @@ private:
         return 0;
     }
 
-    /// Empty cells that hang together by their sides take the new part. @return how many
-    std::size_t fill(int row, int col, Part part) {
-        std::vector<std::pair<int, int>> open = {{row, col}};
-        std::size_t count = 0;
+    /// Empty cells that hang together by their sides take the new part. @return which
+    std::vector<std::pair<int, int>> fill(int row, int col, Part part) {
+        std::vector<std::pair<int, int>> open = {{row, col}}, filled;
         while (!open.empty()) {
             const auto [r, c] = open.back();
             open.pop_back();
             if (r < 0 || c < 0 || r >= rows_ || c >= cols_ || at(r, c) != empty) continue;
             at(r, c) = part;
-            ++count;
+            filled.emplace_back(r, c);
             for (const auto& next :
                  {std::pair(r + 1, c), std::pair(r - 1, c), std::pair(r, c + 1), std::pair(r, c - 1)})
                 open.push_back(next);
         }
-        return count;
+        return filled;
     }
 
     void mark_holes(double smallest_cells) {
         for (int row = 0; row < rows_; ++row)
             for (int col = 0; col < cols_; ++col) {
                 if (at(row, col) != empty) continue;
-                const auto before = part_;
-                if (static_cast<double>(fill(row, col, hole)) >= smallest_cells) continue;
-                part_ = before;
-                fill(row, col, small_hole);
+                const auto cells = fill(row, col, hole);
+                if (static_cast<double>(cells.size()) >= smallest_cells) continue;
+                for (const auto& [r, c] : cells) at(r, c) = small_hole;
             }
     }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "geometry/disjoint_sets.h"
+#include "geometry/weld.h"
+
 namespace mimik::geometry {
 
 namespace {
@@ -40,6 +43,18 @@ std::vector<Edge> border_edges(std::span<const Triangle> triangles) {
     edges.reserve(3 * triangles.size());
     for (const auto& triangle : triangles) add_sides(triangle, edges);
     return single_ones(std::move(edges));
+}
+
+std::vector<std::uint32_t> connected_parts(std::span<const Point> vertices_mm, std::span<const Triangle> triangles) {
+    auto part = weld(vertices_mm, triangles);
+    DisjointSets sets(vertices_mm.size());
+    for (const auto& t : triangles) {
+        sets.join(part[t[0]], part[t[1]]);
+        sets.join(part[t[0]], part[t[2]]);
+    }
+    for (auto& vertex : part)
+        if (vertex != not_welded) vertex = sets.root(vertex);
+    return part;
 }
 
 }  // namespace mimik::geometry

@@ -15,4 +15,9 @@ using Edge = std::array<std::uint32_t, 2>;  ///< the lower vertex first
 [[nodiscard]] std::vector<Edge> border_edges(const Faces& faces);
 [[nodiscard]] std::vector<Edge> border_edges(std::span<const Triangle> triangles);
 
+/// Parts of a mesh that hang together by triangles; vertices at one place are one, since textures split them.
+/// @return per vertex one that stands for its part, the same for all of the part; `not_welded` (weld.h) of no triangle
+[[nodiscard]] std::vector<std::uint32_t> connected_parts(std::span<const Point> vertices_mm,
+                                                         std::span<const Triangle> triangles);
+
 }  // namespace mimik::geometry

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
-#include "geometry/disjoint_sets.h"
 #include "geometry/point_index.h"
+#include "geometry/topology.h"
 #include "geometry/weld.h"
 
 namespace mimik::preprocessing {
@@ -73,24 +73,18 @@ struct Face {
     std::uint32_t skin = 0;                ///< the part that the nose belongs to
 };
 
-/// Parts that hang together by triangles; vertices at one place are one, since textures split them. Hair may have more
-/// vertices than skin, but the tip of the nose is skin.
+/// Hair may have more vertices than skin, but the tip of the nose is skin.
 void find_parts(Face& face, const geometry::Landmarks& landmarks) {
-    const auto welded = geometry::weld(face.vertices_mm, face.triangles);
-    geometry::DisjointSets sets(face.vertices_mm.size());
-    for (const auto& t : face.triangles) {
-        sets.join(welded[t[0]], welded[t[1]]);
-        sets.join(welded[t[0]], welded[t[2]]);
-    }
-    std::vector<std::size_t> count(welded.size(), 0);
-    face.part.resize(welded.size());
-    for (std::uint32_t v = 0; v < welded.size(); ++v) {
-        face.part[v] = welded[v] == geometry::not_welded ? v : sets.root(welded[v]);
+    const auto parts = geometry::connected_parts(face.vertices_mm, face.triangles);
+    std::vector<std::size_t> count(parts.size(), 0);
+    face.part.resize(parts.size());
+    for (std::uint32_t v = 0; v < parts.size(); ++v) {
+        face.part[v] = parts[v] == geometry::not_welded ? v : parts[v];
         ++count[face.part[v]];
     }
     if (const auto* nose = landmarks.find("nose_tip")) {
         const auto nearest = geometry::nearest_point(face.vertices_mm, nose->position_mm,
-                                                     [&](std::size_t v) { return welded[v] != geometry::not_welded; });
+                                                     [&](std::size_t v) { return parts[v] != geometry::not_welded; });
         if (nearest) face.skin = face.part[*nearest];
     } else if (!count.empty()) {
         face.skin = static_cast<std::uint32_t>(std::max_element(count.begin(), count.end()) - count.begin());
@@ -401,8 +395,11 @@ EyeLids find_eye(const Face& face, const Point& right_corner, const Point& left_
     look(eye, false);
     if (eye.eyeball == EyeballKind::none) {
         for (int again = 0; again < 2 && eye.found; ++again) {
-            settle_eyeball(eye, eye.sections, face.options);
-            look(eye, false);
+            auto settled = eye;
+            settle_eyeball(settled, eye.sections, face.options);
+            look(settled, false);
+            if (!settled.found) break;  // what was found before stands
+            eye = std::move(settled);
         }
         if (auto on_surface = usual; !eye.found && eyeball_on_surface(face, on_surface, between)) {
             on_surface.eyeball = EyeballKind::surface;

@@ -61,10 +61,13 @@ std::vector<ScanRegistration> register_workspace(const Workspace& workspace, std
                                                  const std::function<void(const std::string&)>& progress) {
     (void)workspace.registrations()->registration();  // an average face without a mouth is said once
     std::vector<ScanRegistration> found(scans.size());
-    base::parallel_for_each(scans.size(), [&](std::size_t k) {
-        found[k] = register_scan(workspace, scans[k]);
-        if (progress) progress(scans[k].name());
-    });
+    // Neutral scans first: all others of a subject begin there.
+    for (const bool neutrals : {true, false})
+        base::parallel_for_each(scans.size(), [&](std::size_t k) {
+            if (scans[k].neutral() != neutrals) return;
+            found[k] = register_scan(workspace, scans[k]);
+            if (progress) progress(scans[k].name());
+        });
     return found;
 }
 

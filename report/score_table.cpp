@@ -126,9 +126,8 @@ std::string lip_text(const evaluation::ExperimentReport& report, const evaluatio
 std::string faults_table(const evaluation::ExperimentReport& report) {
     std::string text =
         "What the distance does not see (means over the expressions; of the lips the worst one, too):\n\n"
-        "| method | kind | lips apart: median error, mm | still skin moves by, mm | peak / true peak | lip vertices "
-        "over "
-        "a hole | all vertices over a hole |\n"
+        "| method | kind | lips apart: median error, mm | still skin moves by, mm | peak / true peak | "
+        "lip vertices over a hole | all vertices over a hole |\n"
         "| --- | --- | ---: | ---: | ---: | ---: | ---: |\n";
     const auto add = [&](const std::string& begin, const evaluation::MethodScores& row) {
         const auto& faults = row.faults;

@@ -64,6 +64,17 @@ TEST(LipAperture, of_a_sewn_mouth_is_what_the_web_stretches_between_the_two_lips
     EXPECT_NEAR(test::measured(*estimator, face, "mouth", "error").value(), 6 * 7.0 / 16 - 7, rounding_mm);
 }
 
+TEST(LipAperture, is_not_told_by_skin_between_the_lips_that_is_nearest_to_both) {
+    // 2 mm on either side of the line nothing was measured: what is nearest stands on the line itself.
+    OpenedLips lips(0.0);
+    for (int y = -3; y <= 3; ++y)
+        for (int x = -10; x <= 10; ++x) lips.neutral.measured[FlatFace::vertex(x, y)] = y == 0 ? 1 : 0;
+    EXPECT_NEAR(lips.of(parted())->animated_mm, 7, rounding_mm);  // by the skin at y = 4 and -4
+    for (int y = -5; y <= 5; ++y)
+        for (int x = -10; x <= 10; ++x) lips.neutral.measured[FlatFace::vertex(x, y)] = y == 0 ? 1 : 0;
+    EXPECT_FALSE(lips.of(parted()));
+}
+
 TEST(LipAperture, is_told_along_the_axis_of_the_face_however_it_is_turned) {
     OpenedLips lips(1.2);
     const geometry::Transform turned(Eigen::AngleAxisd(0.7, Vector(1, 2, 3).normalized()));
