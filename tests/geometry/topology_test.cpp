@@ -10,7 +10,7 @@
 namespace mimik::geometry {
 namespace {
 
-TEST(ConnectedParts, TrianglesThatShareAVertexOrAPlaceAreOnePart) {
+TEST(ConnectedParts, triangles_that_share_a_vertex_or_a_place_are_one_part) {
     // 0-1-2 and 3-4-5 meet at one place (2 and 3), as where a texture cuts; 6-7-8 is alone; no triangle uses 9.
     const std::vector<Point> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 2, 0},
                                          {0, 2, 0}, {9, 0, 0}, {9, 1, 0}, {9, 0, 1}, {5, 5, 5}};
@@ -26,7 +26,7 @@ TEST(ConnectedParts, TrianglesThatShareAVertexOrAPlaceAreOnePart) {
     EXPECT_EQ(part[9], not_welded);
 }
 
-TEST(ConnectedParts, OfNoTrianglesAreNone) {
+TEST(ConnectedParts, of_no_triangles_there_are_none) {
     const std::vector<Point> vertices = {{0, 0, 0}, {1, 0, 0}};
     for (const auto part : connected_parts(vertices, {})) EXPECT_EQ(part, not_welded);
 }
