@@ -32,7 +32,8 @@ namespace {
 
 struct Arguments {
     Common common;
-    std::string database, output, catalogue_file, unit = "mm";
+    std::string database, output, catalogue_file, unit = "mm", cleaning = "own";
+    std::vector<CLI::Option*> of_own, of_pcl;  ///< options that one way of cleaning has alone
     std::vector<std::string> expressions;
     bool dry_run = false, sheets = false, keep_all = false;
     preprocessing::PreprocessOptions options;
@@ -141,8 +142,52 @@ void check_size(const char* option, int lines) {
         throw InputError(fmt::format("{} is {}; give {} to {}", option, lines, least, most));
 }
 
+/// An option of the other way of cleaning would be passed over in silence.
+void take_cleaning(Arguments& arguments) {
+    auto& steps = arguments.options.steps;
+    check_by_option({{"cleaning", "--cleaning"}},
+                    [&] { steps.cleaning_method = preprocessing::parse_cleaning_method(arguments.cleaning); });
+    steps.pcl_cleaning.min_part = steps.cleaning.min_part;
+    const bool pcl = steps.cleaning_method == preprocessing::CleaningMethod::pcl;
+    for (const auto* option : pcl ? arguments.of_own : arguments.of_pcl)
+        if (option->count() > 0)
+            throw InputError(fmt::format("{} is an option of --cleaning {}, and --cleaning is {}; leave one out",
+                                         option->get_name(), pcl ? "own" : "pcl", arguments.cleaning));
+}
+
+void add_cleaning_options(CLI::App& command, Arguments& arguments) {
+    auto& steps = arguments.options.steps;
+    auto& pcl = steps.pcl_cleaning;
+    command
+        .add_option("--cleaning", arguments.cleaning,
+                    "own, or pcl: PCL's outlier removal and clusters, where libpcl-dev was there at the build")
+        ->capture_default_str();
+    arguments.of_own = {
+        command.add_option("--spike-mm", steps.cleaning.spike_mm, "Farther than this from its neighbours is a spike")
+            ->capture_default_str(),
+        command
+            .add_option("--max-jump-mm", steps.cleaning.max_jump_mm,
+                        "Neighbours farther apart belong to different parts")
+            ->capture_default_str()};
+    arguments.of_pcl = {
+        command.add_option("--pcl-neighbours", pcl.neighbours, "Of --cleaning pcl: neighbours that judge a point")
+            ->capture_default_str(),
+        command
+            .add_option("--pcl-deviations", pcl.deviations,
+                        "Of --cleaning pcl: farther from them than the mean by so many standard deviations is an "
+                        "outlier")
+            ->capture_default_str(),
+        command
+            .add_option("--pcl-tolerance-mm", pcl.tolerance_mm,
+                        "Of --cleaning pcl: points farther apart belong to different parts")
+            ->capture_default_str()};
+    command.add_option("--min-part", steps.cleaning.min_part, "Smaller parts are stray, share of the largest")
+        ->capture_default_str();
+}
+
 int run(Arguments& arguments) {
     refuse_workspace(arguments.database);
+    take_cleaning(arguments);
     check_size("--rows", arguments.options.steps.gridding.rows);
     check_size("--cols", arguments.options.steps.gridding.cols);
     arguments.options.steps.crop.crop = !arguments.keep_all;
@@ -151,6 +196,10 @@ int run(Arguments& arguments) {
     if (!arguments.dry_run) database::remember_database(database.root);
     check_by_option({{"spike_mm", "--spike-mm"},
                      {"max_jump_mm", "--max-jump-mm"},
+                     {"neighbours", "--pcl-neighbours"},
+                     {"deviations", "--pcl-deviations"},
+                     {"tolerance_mm", "--pcl-tolerance-mm"},
+                     {"cleaning", "--cleaning"},
                      {"max_edge_mm", "--max-edge-mm"},
                      {"min_part", "--min-part"},
                      {"trim", "--trim"},
@@ -243,15 +292,7 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
     command->add_option(
         "--max-edge-mm", options.steps.gridding.max_edge_mm,
         "Longer triangle edges bridge a hole (default: 3 spacings; of a mesh all that no face covers is bridged)");
-    command
-        ->add_option("--spike-mm", options.steps.cleaning.spike_mm, "Farther than this from its neighbours is a spike")
-        ->capture_default_str();
-    command
-        ->add_option("--max-jump-mm", options.steps.cleaning.max_jump_mm,
-                     "Neighbours farther apart belong to different parts")
-        ->capture_default_str();
-    command->add_option("--min-part", options.steps.cleaning.min_part, "Smaller parts are stray, share of the largest")
-        ->capture_default_str();
+    add_cleaning_options(*command, *arguments);
     command->add_flag("--keep-all", arguments->keep_all,
                       "Keep neck, ears, hair and shoulders: without it a scan is cropped to the face by its landmarks");
     command->add_option("--trim", options.alignment.trim, "Share of the points that the alignment uses")

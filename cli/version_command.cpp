@@ -10,6 +10,7 @@
 
 #include "base/companion.h"
 #include "base/parallel.h"
+#include "base/pcl_module.h"
 #include "cli/command.h"
 #include "cli/figure_start.h"
 #include "io/json_values.h"
@@ -37,14 +38,16 @@ nlohmann::ordered_json facts() {
                                        {"executor", MIMIK_EXECUTOR_NAME},
                                        {"threads", base::thread_count()},
                                        {"system", system_name()},
-                                       {"drawing_program", nullptr},
-                                       {"opencv_program", nullptr}};
+                                       {"drawing_program", nullptr}};
     try {
         document["drawing_program"] = find_figure_program().string();
     } catch (const std::exception&) {  // there is none, and that is said
     }
-    if (const auto file = base::find_companion("mimik-opencv"); !file.empty())
-        document["opencv_program"] = file.string();
+    for (const auto& [key, name] :
+         {std::pair{"pcl_module", base::pcl_module_name}, std::pair{"opencv_program", "mimik-opencv"}}) {
+        const auto file = base::find_companion(name);
+        document[key] = file.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(file.string());
+    }
     auto& list = document["libraries"] = nlohmann::ordered_json::object();
     for (const auto& [name, version] : libraries) list[name] = version;
     return document;

@@ -1,9 +1,10 @@
 # The libraries that the headers of adapters/ include. The build of Mimik looks for them for the tests alone, and does
 # without those that are missing; find_package(mimik COMPONENTS adapters_pcl) needs the one that it names.
 set(MIMIK_ADAPTERS cgal opencv pcl vtk)
-# What the build itself needs beside them, for companions/.
+# What the build itself needs beside them, for companions/ and for the judges in tests and benchmarks.
 if(PROJECT_NAME STREQUAL "mimik")
   set(MIMIK_MORE_OF_OPENCV imgcodecs)
+  set(MIMIK_MORE_OF_PCL kdtree search filters segmentation features registration)
 endif()
 
 # mimik_adapter_library(pcl library): the targets to link, or nothing if the library is not installed. Who has them already
@@ -31,7 +32,7 @@ function(mimik_adapter_library package result)
     elseif(package STREQUAL "opencv")
       find_package(OpenCV 4.6 CONFIG QUIET COMPONENTS core ${MIMIK_MORE_OF_OPENCV})
     elseif(package STREQUAL "pcl")
-      find_package(PCL 1.13 CONFIG QUIET COMPONENTS common)
+      find_package(PCL 1.13 CONFIG QUIET COMPONENTS common ${MIMIK_MORE_OF_PCL})
     elseif(package STREQUAL "vtk")
       find_package(VTK 9.1 CONFIG QUIET COMPONENTS CommonCore CommonDataModel)
     endif()

@@ -62,9 +62,11 @@ std::string field_values(const Options& options) {
 }
 
 std::string describe(const PreprocessOptions& options) {
-    auto text = fmt::format("steps {} crop{} clean{} grid{} icp{}", steps_version, field_values(options.steps.crop),
-                            field_values(options.steps.cleaning), field_values(options.steps.gridding),
-                            field_values(options.alignment));
+    const auto& steps = options.steps;
+    auto text = fmt::format("steps {} crop{} clean{} grid{} icp{}", steps_version, field_values(steps.crop),
+                            steps.cleaning_method == CleaningMethod::pcl ? " pcl" + field_values(steps.pcl_cleaning)
+                                                                         : field_values(steps.cleaning),
+                            field_values(steps.gridding), field_values(options.alignment));
     for (const auto& kind : std::set<std::string>(options.accept.begin(), options.accept.end()))
         text += " accept " + kind;
     return text;

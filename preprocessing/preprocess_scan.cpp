@@ -89,16 +89,21 @@ void give_picture(Face& face, const database::LoadedScan& loaded) {
         face.grid.texture_coordinates.clear();
 }
 
-void remark_on_losses(const ScanStepsReport& done, std::vector<std::string>& remarks) {
+geometry::RangeScan cleaned_scan(const geometry::RangeScan& scan, const ScanSteps& steps, CleaningReport& report) {
+    return steps.cleaning_method == CleaningMethod::pcl ? clean_with_pcl(scan, steps.pcl_cleaning, &report)
+                                                        : clean(scan, steps.cleaning, &report);
+}
+
+void remark_on_losses(const ScanStepsReport& done, CleaningMethod method, std::vector<std::string>& remarks) {
     if (const auto& crop = done.crop; 2 * crop.left_out > crop.points)
         remarks.push_back(fmt::format("cropped to the face: {:.0f} % of the points lie outside",
                                       100.0 * static_cast<double>(crop.left_out) / static_cast<double>(crop.points)));
     const auto& cleaned = done.cleaning;
     if (const auto lost = cleaned.spikes + cleaned.stray_points; 20 * lost > cleaned.points)
-        remarks.push_back(fmt::format("cleaning left out {} of {} points: {}, and {} in {}", lost, cleaned.points,
-                                      base::counted(cleaned.spikes, "spike"),
-                                      base::counted(cleaned.stray_points, "stray point"),
-                                      base::counted(cleaned.stray_parts, "part")));
+        remarks.push_back(fmt::format(
+            "cleaning left out {} of {} points: {}, and {} in {}", lost, cleaned.points,
+            base::counted(cleaned.spikes, method == CleaningMethod::pcl ? "outlier" : "spike"),
+            base::counted(cleaned.stray_points, "stray point"), base::counted(cleaned.stray_parts, "part")));
 }
 
 }  // namespace
@@ -106,7 +111,9 @@ void remark_on_losses(const ScanStepsReport& done, std::vector<std::string>& rem
 void ScanSteps::check() const {
     crop.check();
     cleaning.check();
+    pcl_cleaning.check();
     gridding.check();
+    if (cleaning_method == CleaningMethod::pcl) require_pcl_cleaning();
 }
 
 Face preprocess_scan(const database::LoadedScan& loaded, const ScanSteps& steps, ScanStepsReport* report) {
@@ -124,10 +131,10 @@ Face preprocess_scan(const database::LoadedScan& loaded, const ScanSteps& steps,
     const auto box = box_of(loaded.landmarks, steps.crop, face.remarks);
     // Before cleaning: shoulders may be the largest part of a scan, and the face a stray one.
     const auto cropped = box ? crop_to_face(loaded.scan, *box, &done.crop) : loaded.scan;
-    face.grid = grid_scan(clean(cropped, steps.cleaning, &done.cleaning), steps.gridding, &done.gridding);
+    face.grid = grid_scan(cleaned_scan(cropped, steps, done.cleaning), steps.gridding, &done.gridding);
     judge_cloud(done.gridding, loaded, face.remarks);
     give_picture(face, loaded);
-    remark_on_losses(done, face.remarks);
+    remark_on_losses(done, steps.cleaning_method, face.remarks);
     if (report) *report = done;
 
     face.snapped_landmarks = snapped_landmarks(face, box);

@@ -6,21 +6,26 @@
 #include "preprocessing/face.h"
 #include "preprocessing/face_crop.h"
 #include "preprocessing/gridding.h"
+#include "preprocessing/pcl_cleaning.h"
 
 namespace mimik::preprocessing {
 
 /// How one scan becomes a face.
 struct ScanSteps {
     FaceCropOptions crop;
-    CleaningOptions cleaning;
+    CleaningMethod cleaning_method = CleaningMethod::own;
+    CleaningOptions cleaning;         ///< of the own cleaning
+    PclCleaningOptions pcl_cleaning;  ///< of PCL's
     GriddingOptions gridding;
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
         visit("crop", self.crop);
+        visit("cleaning_method", self.cleaning_method);
         visit("cleaning", self.cleaning);
+        visit("pcl_cleaning", self.pcl_cleaning);
         visit("gridding", self.gridding);
     }
-    void check() const;  ///< throws InputError
+    void check() const;  ///< throws InputError, also if PCL is to clean and its module is not there
 };
 static_assert(base::lists_every_field<ScanSteps>());
 
