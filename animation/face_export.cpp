@@ -1,6 +1,8 @@
 #include "animation/face_export.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -102,13 +104,12 @@ std::vector<std::uint8_t> texture_png(const std::filesystem::path& texture_file,
     }
 }
 
-std::vector<std::string> write_glb_face(const std::filesystem::path& file, const AnimatedFace& animated,
-                                        const preprocessing::Face& neutral, std::span<const NamedMagnitude> names,
-                                        const std::filesystem::path& texture_file, const ExportOptions& options) {
+/// The morph targets of an animated face: one per expression, or the resultant alone.
+std::vector<Shape> morph_shapes(const std::filesystem::path& file, const AnimatedFace& animated,
+                                std::span<const NamedMagnitude> names, std::vector<std::string>& remarks) {
     if (names.size() != animated.shapes.size())
         throw InputError(fmt::format("{}: {} for {} expressions; give each morph target its name", file.string(),
                                      base::counted(names.size(), "name"), animated.shapes.size()));
-    std::vector<std::string> remarks;
     std::vector<Shape> shapes;
     if (animated.combination == Combination::parallel && names.size() > 1) {
         // Viewers add morph targets up, whatever was asked for.
@@ -117,15 +118,23 @@ std::vector<std::string> write_glb_face(const std::filesystem::path& file, const
         const auto joined = fmt::format("{}", fmt::join(parts, "+"));
         shapes.push_back({{joined, 1.0, {}}, &animated.field.mm});
         remarks.push_back(fmt::format("morph targets of a GLB add up, so the parallel resultant is one, {}", joined));
-    } else {
-        std::set<std::string> taken;
-        for (std::size_t k = 0; k < names.size(); ++k) {
-            if (!taken.insert(names[k].name).second)
-                throw InputError(fmt::format("{}: two morph targets would be called {}; give each expression once",
-                                             file.string(), names[k].name));
-            shapes.push_back({names[k], &animated.shapes[k].mm});
-        }
+        return shapes;
     }
+    std::set<std::string> taken;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (!taken.insert(names[k].name).second)
+            throw InputError(fmt::format("{}: two morph targets would be called {}; give each expression once",
+                                         file.string(), names[k].name));
+        shapes.push_back({names[k], &animated.shapes[k].mm});
+    }
+    return shapes;
+}
+
+std::vector<std::string> write_glb_face(const std::filesystem::path& file, const AnimatedFace& animated,
+                                        const preprocessing::Face& neutral, std::span<const NamedMagnitude> names,
+                                        const std::filesystem::path& texture_file, const ExportOptions& options) {
+    std::vector<std::string> remarks;
+    const auto shapes = morph_shapes(file, animated, names, remarks);
     std::vector<std::uint32_t> kept, source;
     const auto resting = mesh_of(animated, neutral, options, Positions::neutral, &kept);
     auto mesh = io::glb_mesh(resting, &source);
@@ -200,6 +209,33 @@ std::vector<std::string> write_animated_face(const std::filesystem::path& file, 
             fmt::format("an OBJ holds no values per vertex: displacement and origin are in {}", values.string()));
     }
     io::write_mesh(file, mesh, write_options);
+    return remarks;
+}
+
+std::vector<std::string> write_animated_mesh(const std::filesystem::path& file, const AnimatedFace& animated,
+                                             const Mesh& mesh, std::span<const NamedMagnitude> names,
+                                             const std::filesystem::path& texture_file, const io::MadeBy& made_by) {
+    std::vector<std::string> remarks;
+    const auto shapes = morph_shapes(file, animated, names, remarks);
+    std::vector<std::uint32_t> source;
+    auto glb = io::glb_mesh(mesh, &source);
+    glb.name = file.stem().string();
+    if (!glb.texture_coordinates.empty()) glb.texture_png = texture_png(texture_file, remarks);
+    glb.asset_extras = made_by;
+    std::erase_if(glb.attributes, [&](const geometry::VertexAttribute& attribute) {
+        const bool fits = std::all_of(attribute.values.begin(), attribute.values.end(),
+                                      [](double value) { return std::isfinite(static_cast<float>(value)); });
+        if (!fits)
+            remarks.push_back(fmt::format("{}: attribute '{}' is left out: a GLB holds finite 32-bit numbers alone",
+                                          file.string(), attribute.name));
+        return !fits;
+    });
+    for (const auto& shape : shapes) {
+        io::MorphTarget morph{shape.name.name, {}, shape.name.magnitude, shape.name.arkit_shape};
+        for (const auto v : source) morph.displacement_mm.push_back((*shape.displacement_mm)[v]);
+        glb.morph_targets.push_back(std::move(morph));
+    }
+    io::write_glb(file, glb);
     return remarks;
 }
 

@@ -61,4 +61,11 @@ std::vector<std::string> write_animated_face(const std::filesystem::path& file, 
                                              const std::filesystem::path& texture_file,
                                              const ExportOptions& options = {});
 
+/// Anybody's mesh at rest as .glb, with morph targets as write_animated_face: blendshapes for any viewer.
+/// @param mesh  what was animated (animate_mesh): its topology, texture positions and attributes are kept
+/// @return, @throws as write_animated_face
+std::vector<std::string> write_animated_mesh(const std::filesystem::path& file, const AnimatedFace& animated,
+                                             const geometry::Mesh& mesh, std::span<const NamedMagnitude> names,
+                                             const std::filesystem::path& texture_file, const io::MadeBy& made_by = {});
+
 }  // namespace mimik::animation

@@ -60,8 +60,12 @@ const std::vector<ActionUnit>& action_units() {
         {29, {{"jawForward", .85}}, {{"mouthLowerDown", .08, .06}, {"mouthShrugLower", .06, .06}}},
         {30, {{"jaw", .85}}, {{"mouthStretch", .08, .06}, {"mouthFrown", .06, .06}}},
         {34, {{"cheekPuff", .80}}, {{"mouthPress", .15, .08}, {"mouthPucker", .08, .06}}},
+        {41, {{"eyeBlink", .40}}, {{"eyeSquint", .06, .06}}},
+        {42, {{"eyeBlink", .75}}, {{"eyeSquint", .12, .08}, {"cheekSquint", .06, .06}}},
         {43, {{"eyeBlink", .95}}, {{"eyeSquint", .10, .07}, {"cheekSquint", .06, .06}}},
         {44, {{"eyeSquint", .85}, {"eyeBlink", .35}}, {{"cheekSquint", .15, .08}, {"browDown", .10, .07}}},
+        {45, {{"eyeBlink", .95}}, {{"eyeSquint", .10, .07}, {"cheekSquint", .06, .06}}},
+        {46, {{"eyeBlink", .95}}, {{"eyeSquint", .15, .08}, {"cheekSquint", .12, .08}}},
     };
     return units;
 }

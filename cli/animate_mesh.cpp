@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "base/output_folder.h"
+#include "base/text.h"
+#include "cli/animate_job.h"
+#include "cli/error_report.h"
+#include "database/file_origin.h"
+#include "database/hidden_subjects.h"
+#include "io/landmark_io.h"
+#include "io/mesh_io.h"
+#include "io/warp_file.h"
+
+namespace mimik::cli {
+namespace {
+
+std::size_t torn_faces(const geometry::Mesh& mesh, const animation::AnimatedFace& animated) {
+    std::size_t torn = 0;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        torn += animation::torn(animated, animated.field.mm, mesh.faces[f]) ? 1 : 0;
+    return torn;
+}
+
+/// Whoever the mesh shows, by what it says of itself, is heeded in what is made of it, too.
+void carry_origin(const AnimateArguments& arguments, io::MadeBy& made_by) {
+    const std::array files = {arguments.mesh, arguments.landmarks};
+    for (auto& [key, value] : database::said_in_files(database::origin_to_carry(files))) {
+        const auto said =
+            std::find_if(made_by.begin(), made_by.end(), [&](const auto& entry) { return entry.first == key; });
+        if (said == made_by.end())
+            made_by.emplace_back(key, value);
+        else if (key == "subjects")
+            said->second += " " + value;
+    }
+}
+
+/// The one image of a mesh that goes into a GLB; a remark where there is another number.
+std::filesystem::path glb_texture(const AnimateArguments& arguments, const io::MeshFile& file,
+                                  std::vector<std::string>& remarks) {
+    if (file.texture_files.size() > 1)
+        remarks.push_back(
+            fmt::format("{}: a GLB of a mesh of your own holds one picture, and this mesh has {}; .ply "
+                        "and .obj keep them",
+                        arguments.output, file.texture_files.size()));
+    if (file.texture_files.size() != 1) return {};
+    auto image = arguments.mesh.parent_path() / file.texture_files.front();
+    database::refuse_hidden_file(image);
+    return image;
+}
+
+void write_moved(const AnimateArguments& arguments, io::MeshFile& file, const io::MadeBy& made_by,
+                 std::vector<std::string>& remarks) {
+    const auto output = base::where_links_lead(arguments.output);
+    io::MeshWriteOptions options;
+    options.made_by = made_by;
+    options.frame = file.frame;
+    if (io::takes_texture(output))
+        io::copy_textures(
+            file, arguments.mesh, output,
+            [](const std::filesystem::path& image) { database::refuse_hidden_file(image); }, options, remarks);
+    else if (!file.texture_files.empty())
+        remarks.push_back(fmt::format(
+            "{}: the format names no image, so the texture is left out; .ply and .obj keep it", arguments.output));
+    for (auto& remark : io::write_mesh(output, file.mesh, options)) remarks.push_back(std::move(remark));
+}
+
+}  // namespace
+
+int animate_own_mesh(const AnimateArguments& arguments, const ExpressionShelf& shelf, ChosenExpressions& chosen) {
+    for (const auto& file : {arguments.mesh, arguments.landmarks}) database::refuse_hidden_file(file);
+    refuse_range_scan(arguments.mesh);
+    auto file =
+        io::read_mesh_file(arguments.mesh, io::LengthUnit::millimetre, io::MeshParts::all, io::BadTexture::report);
+    auto& remarks = chosen.remarks;
+    remarks.insert(remarks.end(), file.remarks.begin(), file.remarks.end());
+    const auto landmarks = io::read_landmarks(arguments.landmarks, file.mesh.vertices_mm);
+    auto options = arguments.method.animation_options();
+    options.combination = combination_of(arguments);
+    animation::AnimatedFace animated;
+    auto moved = naming_any({arguments.landmarks, arguments.mesh}, [&] {
+        return animation::animate_mesh(file.mesh, landmarks, shelf.average(), chosen.weighted(), options, &animated);
+    });
+    remarks.insert(remarks.end(), animated.remarks.begin(), animated.remarks.end());
+    if (const auto torn = torn_faces(file.mesh, animated); torn > 0)
+        remarks.push_back(fmt::format("{} of {} join lips or lids that part, and are stretched: cut the mesh there",
+                                      base::counted(torn, "face"), arguments.mesh.string()));
+    auto made = made_by(arguments, shelf, arguments.mesh.filename().string(), "", chosen);
+    carry_origin(arguments, made);
+    if (!file.texture_error.empty()) remarks.push_back(file.texture_error);
+    if (base::lower_case(std::filesystem::path(arguments.output).extension().string()) == ".glb") {
+        const auto texture = glb_texture(arguments, file, remarks);
+        for (auto& remark : animation::write_animated_mesh(base::where_links_lead(arguments.output), animated,
+                                                           file.mesh, chosen.names, texture, made))
+            remarks.push_back(std::move(remark));
+    } else {
+        file.mesh = std::move(moved);
+        write_moved(arguments, file, made, remarks);
+    }
+    return report_animation(arguments, arguments.mesh.string(), chosen, animated.extent);
+}
+
+}  // namespace mimik::cli
