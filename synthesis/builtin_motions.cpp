@@ -56,9 +56,9 @@ void add_nose_and_lips(Motions& m) {
                                    {{14, -77}, {50, -30}, {1.0, 2.0, -2.0}, 30, 26, 24}},
                        .furrows = {{{{16, -43}, {19, -49}, {24, -60}, {29, -72}}, 0.5, 2.2}}};
     // Buccinator: the corner against the teeth, the cheek before it folded outward.
-    m["mouthDimple"] = {.muscles = {{{25, -77}, {62, -66}, {1.2, 3.6, -5.8}, 46, 28, 38}},
+    m["mouthDimple"] = {.muscles = {{{25, -77}, {62, -66}, {1.2, 2.6, -5.4}, 56, 34, 48}},
                         .furrows = {{{{33, -67}, {35.5, -76}, {33, -86}}, 0.9, 2.4}},
-                        .bulges = {{{56, -60}, 1.8, 26, 32}}};
+                        .bulges = {{{58, -70}, 1.2, 28, 34}}};
     // Depressor anguli oris.
     m["mouthFrown"] = {.muscles = {{{24.7, -77}, {33, -114}, {1.9, -5.1, -2.2}, 42, 40, 32}},
                        .furrows = {{{{26, -81}, {29, -90}, {30, -100}}, 0.45, 2.2}}};
