@@ -164,7 +164,8 @@ geometry::DisplacementField expression_field(const PreparedTarget& target, const
                                              std::vector<std::string>* remarks) {
     options.check();
     const auto& keep = kept_shares(target.surface(), options);
-    if (model.dense && points) (void)carry(target, model, options, points, remarks);
+    // Where its points are, for figures; they move nothing, so what is left out of them is not said.
+    if (model.dense && points) (void)carry(target, model, options, points, nullptr);
     auto field =
         model.dense ? dense_field(target, *model.dense) : sparse_field(target, model, options, points, remarks);
     if (options.lids) slide_lids(target, model.expression, field, remarks);

@@ -251,18 +251,14 @@ const preprocessing::LidMargins& lid_margins(const PreparedTarget& target) { ret
 std::vector<LidSheet> lid_sheets(const PreparedTarget& target) { return lids_of(target).sheets; }
 
 bool lids_slide(const PreparedTarget& target, const facs::Expression& expression) {
-    bool any = false;
-    for (const auto side : {Side::left, Side::right}) {
-        if (!facs::lid_motion(expression, side)) continue;
-        if (!lids_of(target).margins.of(side).found) return false;
-        any = true;
-    }
-    return any;
+    if (!facs::lid_motion(expression, Side::left) && !facs::lid_motion(expression, Side::right)) return false;
+    // Both eyes or none, also where one is asked for: the two sides of an AU may be blendshapes of one file.
+    const auto& margins = lids_of(target).margins;
+    return margins.of(Side::left).found && margins.of(Side::right).found;
 }
 
 void slide_lids(const PreparedTarget& target, const facs::Expression& expression, geometry::DisplacementField& field,
                 std::vector<std::string>* remarks) {
-    // Both eyes or none: who closes one of two winks.
     const bool slides = lids_slide(target, expression);
     for (const auto side : {Side::left, Side::right}) {
         const auto motion = facs::lid_motion(expression, side);

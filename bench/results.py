@@ -46,7 +46,8 @@ class World:
                 self.run("synthesize", database, "--subjects", self.subjects, "--seed", seed, "--expressions",
                          ",".join(expressions), *self.model)
             self.run("preprocess", database, "-o", folder / "work")
-            self.run("evaluate", folder / "work", "--method", ",".join(methods), "-o", folder / "scores")
+            self.run("evaluate", folder / "work", "--method", ",".join(methods), "--expression",
+                     ",".join(expressions), "-o", folder / "scores")
         document = json.loads((folder / "scores" / "scores.json").read_text())
         if document["failures"]:
             print("results.py: failures:", *document["failures"], sep="\n  ", file=sys.stderr)

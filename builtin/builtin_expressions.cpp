@@ -144,7 +144,8 @@ bool BuiltinExpressions::shows(const facs::Expression& expression) const {
 modeling::ExpressionModel BuiltinExpressions::model(const facs::FacsCatalogue& catalogue,
                                                     const facs::Expression& expression,
                                                     const modeling::ModelOptions& options) const {
-    if (!options.place_on_average) throw InputError("place_on_average is false; the built-in expressions are a mean");
+    if (!options.place_on_average)
+        throw InputError("place_on_average is false, but the built-in expressions are a mean; set it to true");
     const auto& parts = *parts_;
     synthesis::PosedExpression posed;
     try {
@@ -180,7 +181,7 @@ modeling::ExpressionModel BuiltinExpressions::model(const facs::FacsCatalogue& c
             for (std::size_t v = 0; v < dense.motion_mm.size(); ++v) dense.motion_mm[v] += shown.motion_mm[v] / count;
         });
     auto model = points.mean();
-    model.sources = {"built-in faces"};
+    model.sources.clear();  // nobody was scanned
     if (options.correspondence == modeling::Correspondence::dense) {
         model.dense = std::move(dense);
         model.left_out.clear();  // of points, which move nothing then

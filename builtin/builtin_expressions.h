@@ -24,7 +24,7 @@ static_assert(base::lists_every_field<BuiltinExpressionOptions>());
 
 /// The average face and the expressions that come with Mimik, for whoever has a mesh and no database of scans: people
 /// of the procedural face model (synthesis/face_model.h) show them. Their skin is followed by its own vertices, so
-/// neither scanner nor registration blurs the motion. Made in memory within a second or two; same options, same
+/// neither scanner nor registration blurs the motion. Made in memory within some seconds; same options, same
 /// numbers, whatever the number of threads.
 class BuiltinExpressions {
 public:

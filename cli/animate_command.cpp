@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -94,10 +95,28 @@ void check_target(const AnimateArguments& arguments) {
         throw InputError("--mesh: --hold, --keep-bridged and --frame are for faces of the workspace; leave them out");
 }
 
+/// `--au arkit` is a blendshape head at rest, and only that.
+void check_arkit(const AnimateArguments& arguments) {
+    for (const auto& typed : arguments.action_units)
+        if (base::lower_case(typed).starts_with(std::string(all_of_arkit) + ":"))
+            throw InputError(
+                fmt::format("--au {}: all blendshapes at once are no face; give arkit alone, at rest, and "
+                            "expressions at their magnitudes beside it, such as arkit,12:0.5",
+                            typed));
+    if (!asks_for_arkit(arguments)) return;
+    if (base::lower_case(std::filesystem::path(arguments.output).extension().string()) != ".glb")
+        throw InputError(fmt::format(
+            "--au arkit: {} holds no blendshapes, and at rest nothing moves; give an output that ends in .glb",
+            arguments.output));
+    if (arguments.combine != "sum")
+        throw InputError("--combine parallel: blendshapes of a viewer add up; leave it out beside --au arkit");
+}
+
 int run(AnimateArguments& arguments) {
     check_target(arguments);
     if (arguments.action_units.empty() && arguments.model_files.empty())
         throw InputError("there is nothing to animate; give --au, such as 12, or --model, a file of 'mimik model'");
+    check_arkit(arguments);
     const ExpressionShelf shelf(arguments.workspace);
     if (const auto* workspace = shelf.workspace())
         for (auto* subject : {&arguments.source, &arguments.target}) {
@@ -106,10 +125,15 @@ int run(AnimateArguments& arguments) {
             workspace->refuse_hidden(*subject);
         }
     const auto catalogue = arguments.method.catalogue();
-    if (!arguments.action_units.empty() || arguments.workspace.empty())
+    if (!arguments.action_units.empty())
         shelf.check_source({arguments.source, {arguments.target}}, arguments.method.model_options());
+    if (arguments.mesh.empty()) {
+        auto chosen = choose_expressions(arguments, shelf, catalogue);
+        return animate_scan(arguments, shelf, chosen);
+    }
+    auto own = read_own_mesh(arguments);
     auto chosen = choose_expressions(arguments, shelf, catalogue);
-    return arguments.mesh.empty() ? animate_scan(arguments, shelf, chosen) : animate_own_mesh(arguments, shelf, chosen);
+    return animate_own_mesh(arguments, shelf, std::move(own), chosen);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "cli/animate_job.h"
 
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <set>
@@ -48,9 +49,11 @@ void note_unusable(const modeling::ExpressionModel& model, std::vector<std::stri
 
 /// Every expression that ARKit has a blendshape for and somebody shows. Of several with one blendshape (a jaw drop and
 /// a stretched mouth), the one that moves farthest: a blendshape is the full motion.
+/// @param taken  blendshapes that somebody asked for by name
 std::vector<modeling::ExpressionModel> arkit_models(const ExpressionShelf& shelf, const facs::FacsCatalogue& catalogue,
                                                     const modeling::ExpressionSource& source,
                                                     const modeling::ModelOptions& options,
+                                                    const std::set<std::string>& taken,
                                                     std::vector<std::string>& failures) {
     std::vector<modeling::ExpressionModel> models;
     std::map<std::string, std::size_t> place;  // of a blendshape's model
@@ -59,24 +62,26 @@ std::vector<modeling::ExpressionModel> arkit_models(const ExpressionShelf& shelf
             const auto expression = catalogue.find_expression(fmt::format("{}{}", unit.number, side));
             if (!expression || !shelf.shows(*expression, source)) continue;
             const auto shape = facs::arkit_shape(catalogue, *expression);
-            if (shape.empty()) continue;
-            auto model = shelf.model(catalogue, *expression, source, options);
-            note_unusable(model, failures);
-            const auto [at, added] = place.try_emplace(shape, models.size());
-            if (added)
-                models.push_back(std::move(model));
-            else if (model.largest_displacement_mm() > models[at->second].largest_displacement_mm())
-                models[at->second] = std::move(model);
+            if (shape.empty() || taken.contains(shape)) continue;
+            try {
+                auto model = shelf.model(catalogue, *expression, source, options);
+                note_unusable(model, failures);
+                const auto [at, added] = place.try_emplace(shape, models.size());
+                if (added)
+                    models.push_back(std::move(model));
+                else if (model.largest_displacement_mm() > models[at->second].largest_displacement_mm())
+                    models[at->second] = std::move(model);
+            } catch (const std::exception& e) {  // the others are none the worse
+                failures.push_back(fmt::format("{}: {}", expression->name(), e.what()));
+            }
         }
     if (models.empty()) throw InputError("--au arkit: nobody here shows an expression that ARKit has a blendshape for");
     return models;
 }
 
-constexpr const char* all_of_arkit = "arkit";
-
 std::string source_words(const AnimateArguments& arguments) {
     if (arguments.action_units.empty()) return "model files";
-    const auto source = arguments.workspace.empty() ? "the built-in faces" : arguments.source;
+    const std::string source = arguments.workspace.empty() ? "built-in" : arguments.source;
     return arguments.model_files.empty() ? source : source + " and model files";
 }
 
@@ -114,6 +119,11 @@ std::vector<animation::WeightedExpression> ChosenExpressions::weighted() const {
     return expressions;
 }
 
+bool asks_for_arkit(const AnimateArguments& arguments) {
+    return std::any_of(arguments.action_units.begin(), arguments.action_units.end(),
+                       [](const std::string& typed) { return base::equal_ignoring_case(typed, all_of_arkit); });
+}
+
 animation::Combination combination_of(const AnimateArguments& arguments) {
     return arguments.combine == "parallel" ? animation::Combination::parallel : animation::Combination::sum;
 }
@@ -128,19 +138,20 @@ ChosenExpressions choose_expressions(const AnimateArguments& arguments, const Ex
         chosen.models.push_back(std::move(model));
     };
     const modeling::ExpressionSource source{arguments.source, {arguments.target}};
+    std::set<std::string> taken;  // blendshapes of what was asked for by name, at its own magnitude
     for (const auto& typed : arguments.action_units) {
-        if (base::equal_ignoring_case(typed, all_of_arkit)) {
-            for (auto& model :
-                 arkit_models(shelf, catalogue, source, arguments.method.model_options(), chosen.failures))
-                add(std::move(model), 0.0);
-            continue;
-        }
+        if (base::equal_ignoring_case(typed, all_of_arkit)) continue;
         const auto [text, magnitude] = facs::split_magnitude(typed);
         auto model =
             shelf.model(catalogue, shelf.expression(catalogue, text), source, arguments.method.model_options());
         note_unusable(model, chosen.failures);
+        taken.insert(facs::arkit_shape(catalogue, model.expression));
         add(std::move(model), magnitude);
     }
+    if (asks_for_arkit(arguments))
+        for (auto& model :
+             arkit_models(shelf, catalogue, source, arguments.method.model_options(), taken, chosen.failures))
+            add(std::move(model), 0.0);
     const auto here = arguments.method.provenance(catalogue, shelf.average());
     for (const auto& typed : arguments.model_files) {
         const auto [file, magnitude] =
@@ -171,15 +182,16 @@ io::MadeBy made_by(const AnimateArguments& arguments, const ExpressionShelf& she
     if (!subject.empty()) subjects.insert(subject);
     for (const auto& name : scans)
         if (const auto scan = database::parse_scan_name(name)) subjects.insert(scan->subject);
-    io::MadeBy made = {{"made_by", fmt::format("Mimik {} animate", base::version())},
-                       {"source", fmt::format("{} ({})", source_words(arguments), named)},
-                       {"target", target},
-                       {"expressions", fmt::format("{}", fmt::join(expressions, ", "))},
-                       {"combined_by", arguments.combine},
-                       {"method", arguments.method.variant_name()},
-                       {"frame", arguments.frame},
-                       // Lists of hidden subjects are heeded wherever the mesh goes (database/file_origin.h).
-                       {"subjects", fmt::format("{}", fmt::join(subjects, " "))}};
+    io::MadeBy made = {
+        {"made_by", fmt::format("Mimik {} animate", base::version())},
+        {"source", scans.empty() ? source_words(arguments) : fmt::format("{} ({})", source_words(arguments), named)},
+        {"target", target},
+        {"expressions", fmt::format("{}", fmt::join(expressions, ", "))},
+        {"combined_by", arguments.combine},
+        {"method", arguments.method.variant_name()},
+        {"frame", arguments.frame},
+        // Lists of hidden subjects are heeded wherever the mesh goes (database/file_origin.h).
+        {"subjects", fmt::format("{}", fmt::join(subjects, " "))}};
     if (const auto* workspace = shelf.workspace())
         made.emplace_back("database", database::remember_database(workspace->database_root()));
     return made;

@@ -49,8 +49,19 @@ struct ChosenExpressions {
 [[nodiscard]] int report_animation(const AnimateArguments& arguments, const std::string& target,
                                    ChosenExpressions& chosen, const geometry::FieldExtent& extent);
 
-/// Anybody's mesh: its own vertices, faces, texture coordinates and attributes, moved. @return the exit code
-[[nodiscard]] int animate_own_mesh(const AnimateArguments& arguments, const ExpressionShelf& shelf,
+/// Anybody's mesh with its landmarks, as they were read.
+struct OwnMesh {
+    io::MeshFile file;
+    geometry::Landmarks landmarks;
+};
+/// @throws InputError naming the file, before any work on expressions.
+[[nodiscard]] OwnMesh read_own_mesh(const AnimateArguments& arguments);
+/// Its own vertices, faces, texture coordinates and attributes, moved. @return the exit code
+[[nodiscard]] int animate_own_mesh(const AnimateArguments& arguments, const ExpressionShelf& shelf, OwnMesh own,
                                    ChosenExpressions& chosen);
+
+/// `--au arkit`: every expression that has an ARKit name.
+inline constexpr const char* all_of_arkit = "arkit";
+[[nodiscard]] bool asks_for_arkit(const AnimateArguments& arguments);
 
 }  // namespace mimik::cli

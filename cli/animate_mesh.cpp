@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <filesystem>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,16 +18,24 @@
 namespace mimik::cli {
 namespace {
 
-std::size_t torn_faces(const geometry::Mesh& mesh, const animation::AnimatedFace& animated) {
+/// @param at_any_magnitude  whatever the expressions are set to: morph targets can be moved
+std::size_t torn_faces(const geometry::Mesh& mesh, const animation::AnimatedFace& animated, bool at_any_magnitude) {
     std::size_t torn = 0;
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-        torn += animation::torn(animated, animated.field.mm, mesh.faces[f]) ? 1 : 0;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        bool is_torn = animation::torn(animated, animated.field.mm, mesh.faces[f]);
+        if (at_any_magnitude)
+            for (const auto& shape : animated.shapes)
+                is_torn = is_torn || animation::torn(animated, shape.mm, mesh.faces[f]);
+        torn += is_torn ? 1 : 0;
+    }
     return torn;
 }
 
 /// Whoever the mesh shows, by what it says of itself, is heeded in what is made of it, too.
 void carry_origin(const AnimateArguments& arguments, io::MadeBy& made_by) {
-    const std::array files = {arguments.mesh, arguments.landmarks};
+    std::vector<std::filesystem::path> files = {arguments.mesh, arguments.landmarks};
+    for (const auto& typed : arguments.model_files)
+        files.emplace_back(std::filesystem::exists(typed) ? typed : facs::split_magnitude(typed).text);
     for (auto& [key, value] : database::said_in_files(database::origin_to_carry(files))) {
         const auto said =
             std::find_if(made_by.begin(), made_by.end(), [&](const auto& entry) { return entry.first == key; });
@@ -38,7 +46,8 @@ void carry_origin(const AnimateArguments& arguments, io::MadeBy& made_by) {
     }
 }
 
-/// The one image of a mesh that goes into a GLB; a remark where there is another number.
+/// The one image of a mesh that goes into a GLB; empty with a remark where there is another number, or it may not be
+/// handed on.
 std::filesystem::path glb_texture(const AnimateArguments& arguments, const io::MeshFile& file,
                                   std::vector<std::string>& remarks) {
     if (file.texture_files.size() > 1)
@@ -47,8 +56,15 @@ std::filesystem::path glb_texture(const AnimateArguments& arguments, const io::M
                         "and .obj keep them",
                         arguments.output, file.texture_files.size()));
     if (file.texture_files.size() != 1) return {};
-    auto image = arguments.mesh.parent_path() / file.texture_files.front();
+    const auto folder = arguments.mesh.parent_path();
+    auto image = folder / file.texture_files.front();
     database::refuse_hidden_file(image);
+    try {
+        (void)io::checked_image(image, folder, arguments.mesh.string());
+    } catch (const InputError& e) {
+        remarks.emplace_back(e.what());
+        return {};
+    }
     return image;
 }
 
@@ -70,28 +86,39 @@ void write_moved(const AnimateArguments& arguments, io::MeshFile& file, const io
 
 }  // namespace
 
-int animate_own_mesh(const AnimateArguments& arguments, const ExpressionShelf& shelf, ChosenExpressions& chosen) {
+OwnMesh read_own_mesh(const AnimateArguments& arguments) {
     for (const auto& file : {arguments.mesh, arguments.landmarks}) database::refuse_hidden_file(file);
     refuse_range_scan(arguments.mesh);
-    auto file =
-        io::read_mesh_file(arguments.mesh, io::LengthUnit::millimetre, io::MeshParts::all, io::BadTexture::report);
+    OwnMesh own{
+        io::read_mesh_file(arguments.mesh, io::LengthUnit::millimetre, io::MeshParts::all, io::BadTexture::report), {}};
+    own.landmarks = io::read_landmarks(arguments.landmarks, own.file.mesh.vertices_mm);
+    return own;
+}
+
+int animate_own_mesh(const AnimateArguments& arguments, const ExpressionShelf& shelf, OwnMesh own,
+                     ChosenExpressions& chosen) {
+    auto& file = own.file;
+    const bool blendshapes = base::lower_case(std::filesystem::path(arguments.output).extension().string()) == ".glb";
     auto& remarks = chosen.remarks;
     remarks.insert(remarks.end(), file.remarks.begin(), file.remarks.end());
-    const auto landmarks = io::read_landmarks(arguments.landmarks, file.mesh.vertices_mm);
     auto options = arguments.method.animation_options();
     options.combination = combination_of(arguments);
     animation::AnimatedFace animated;
     auto moved = naming_any({arguments.landmarks, arguments.mesh}, [&] {
-        return animation::animate_mesh(file.mesh, landmarks, shelf.average(), chosen.weighted(), options, &animated);
+        return animation::animate_mesh(file.mesh, own.landmarks, shelf.average(), chosen.weighted(), options,
+                                       &animated);
     });
     remarks.insert(remarks.end(), animated.remarks.begin(), animated.remarks.end());
-    if (const auto torn = torn_faces(file.mesh, animated); torn > 0)
-        remarks.push_back(fmt::format("{} of {} join lips or lids that part, and are stretched: cut the mesh there",
-                                      base::counted(torn, "face"), arguments.mesh.string()));
+    if (const auto torn = torn_faces(file.mesh, animated, blendshapes); torn > 0)
+        remarks.push_back(fmt::format("lips or lids that part are joined in {} by {}, stretched there: cut the mesh",
+                                      arguments.mesh.string(), base::counted(torn, "face")));
     auto made = made_by(arguments, shelf, arguments.mesh.filename().string(), "", chosen);
     carry_origin(arguments, made);
     if (!file.texture_error.empty()) remarks.push_back(file.texture_error);
-    if (base::lower_case(std::filesystem::path(arguments.output).extension().string()) == ".glb") {
+    if (blendshapes) {
+        if (file.frame)
+            remarks.push_back(
+                fmt::format("{}: a GLB does not say in which frame of the body its coordinates are", arguments.output));
         const auto texture = glb_texture(arguments, file, remarks);
         for (auto& remark : animation::write_animated_mesh(base::where_links_lead(arguments.output), animated,
                                                            file.mesh, chosen.names, texture, made))

@@ -8,14 +8,16 @@
 namespace mimik::cli {
 
 ExpressionShelf::ExpressionShelf(const std::string& workspace) {
-    if (workspace.empty())
-        builtin_ = std::make_unique<const builtin::BuiltinExpressions>();
-    else
-        workspace_.emplace(workspace);
+    if (!workspace.empty()) workspace_.emplace(workspace);
+}
+
+const builtin::BuiltinExpressions& ExpressionShelf::builtin() const {
+    if (!builtin_) builtin_ = std::make_unique<const builtin::BuiltinExpressions>();
+    return *builtin_;
 }
 
 const preprocessing::AverageFace& ExpressionShelf::average() const {
-    return workspace_ ? workspace_->average() : builtin_->average();
+    return workspace_ ? workspace_->average() : builtin().average();
 }
 
 facs::Expression ExpressionShelf::expression(const facs::FacsCatalogue& catalogue, const std::string& typed) const {
@@ -34,7 +36,7 @@ void ExpressionShelf::check_source(const modeling::ExpressionSource& source,
 }
 
 bool ExpressionShelf::shows(const facs::Expression& expression, const modeling::ExpressionSource& source) const {
-    if (!workspace_) return builtin_->shows(expression);
+    if (!workspace_) return builtin().shows(expression);
     try {
         return !modeling::source_scans(*workspace_, expression, source).empty();
     } catch (const InputError&) {
@@ -47,7 +49,7 @@ modeling::ExpressionModel ExpressionShelf::model(const facs::FacsCatalogue& cata
                                                  const modeling::ExpressionSource& source,
                                                  const modeling::ModelOptions& options) const {
     return workspace_ ? modeling::model_from_workspace(*workspace_, catalogue, expression, source, options)
-                      : builtin_->model(catalogue, expression, options);
+                      : builtin().model(catalogue, expression, options);
 }
 
 void ExpressionShelf::share_registrations(modeling::ExpressionModel& model) const {

@@ -38,8 +38,10 @@ public:
     void refuse_hidden(const std::string& subject) const;
 
 private:
+    [[nodiscard]] const builtin::BuiltinExpressions& builtin() const;
+
     std::optional<preprocessing::Workspace> workspace_;
-    std::unique_ptr<const builtin::BuiltinExpressions> builtin_;
+    mutable std::unique_ptr<const builtin::BuiltinExpressions> builtin_;  ///< made when it is first needed
 };
 
 }  // namespace mimik::cli

@@ -333,18 +333,32 @@ void refuse_hidden_file(const fs::path& file) {
     for (const auto& place : places_of(file)) refuse_hidden_at(place, origin);
 }
 
+namespace {
+
+/// The database of the workspace that a file lies in; empty if it lies in none.
+fs::path database_above(const fs::path& file) {
+    auto folder = file.parent_path();
+    for (int level = 0; level <= levels_above_file; ++level) {
+        if (auto database = workspace_at(folder).database; !database.empty()) return database;
+        folder = folder.parent_path();
+    }
+    return {};
+}
+
+}  // namespace
+
 FileOrigin origin_to_carry(std::span<const fs::path> files) {
     FileOrigin all;
     for (const auto& file : files) {
         auto origin = origin_of(file);
         const auto places = places_of(file);
+        // A model names its scans, and no database: that of the workspace it lies in.
+        if (!origin.subjects.empty() && origin.database.empty() && !places.empty()) {
+            origin.place = database_above(places.front());
+            if (!origin.place.empty()) origin.database = database_mark(origin.place);
+        }
         if (const auto scan = parse_scan_name(file.stem().string()); scan && !places.empty()) {
-            FileOrigin by_name{{scan->subject}, {}, {}};
-            auto folder = places.front().parent_path();
-            for (int level = 0; level <= levels_above_file && by_name.place.empty(); ++level) {
-                by_name.place = workspace_at(folder).database;
-                folder = folder.parent_path();
-            }
+            FileOrigin by_name{{scan->subject}, {}, database_above(places.front())};
             // A scan of a database: its lists lie beside it or above.
             if (by_name.place.empty()) by_name.place = places.front().parent_path();
             by_name.database = database_mark(by_name.place);

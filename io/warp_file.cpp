@@ -57,7 +57,8 @@ WarpInput read_input(const std::filesystem::path& input) {
     return result;
 }
 
-/// An image that may be handed on: it lies with the mesh, also where links lead, and is one by its content.
+}  // namespace
+
 std::string checked_image(const std::filesystem::path& image, const std::filesystem::path& folder,
                           const std::string& mesh) {
     const auto refuse = [&](const std::string& why) {
@@ -74,8 +75,6 @@ std::string checked_image(const std::filesystem::path& image, const std::filesys
     }
     return content;
 }
-
-}  // namespace
 
 bool takes_texture(const std::filesystem::path& output) {
     return !is_csv(output) && (mesh_format(output) == MeshFormat::ply || mesh_format(output) == MeshFormat::obj);

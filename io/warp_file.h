@@ -65,6 +65,12 @@ WarpReport warp_file(const std::filesystem::path& from, const std::filesystem::p
 /// Whether a mesh of this format can name an image.
 [[nodiscard]] bool takes_texture(const std::filesystem::path& output);
 
+/// The bytes of an image that may be handed on: it lies with the mesh, also where links lead, and is one by its
+/// content.
+/// @param mesh  its name, for messages. @throws InputError saying why it is left out.
+[[nodiscard]] std::string checked_image(const std::filesystem::path& image, const std::filesystem::path& folder,
+                                        const std::string& mesh);
+
 /// Copies the images that a mesh names beside an output face.ply or face.obj, as face_texture.<ext>,
 /// face_texture_2.<ext>, ..., so that no other of their names is taken for them, and lets `options` name the copies.
 /// What cannot be handed on is told in `remarks`. @param check_texture  as of warp_file

@@ -60,15 +60,17 @@ struct Places {
 };
 
 Places places_of(const RangeScan& scan) {
+    std::vector<std::uint32_t> measured;
+    for (std::uint32_t i = 0; i < scan.points_mm.size(); ++i)
+        if (scan.valid(i)) measured.push_back(i);
+    // Single precision holds the scan wherever its frame has its origin.
+    const geometry::Point origin = measured.empty() ? geometry::Point::Zero() : scan.points_mm[measured.front()];
     const auto single = [&](std::uint32_t i) {
-        const auto& p = scan.points_mm[i];
+        const geometry::Point p = scan.points_mm[i] - origin;
         // Adding zero makes the negative one positive.
         return std::array{static_cast<float>(p.x()) + 0.0F, static_cast<float>(p.y()) + 0.0F,
                           static_cast<float>(p.z()) + 0.0F};
     };
-    std::vector<std::uint32_t> measured;
-    for (std::uint32_t i = 0; i < scan.points_mm.size(); ++i)
-        if (scan.valid(i)) measured.push_back(i);
     std::vector<std::uint32_t> stands_for(scan.points_mm.size(), no_part), order = measured;
     std::sort(order.begin(), order.end(),
               [&](std::uint32_t a, std::uint32_t b) { return std::pair(single(a), a) < std::pair(single(b), b); });
@@ -80,7 +82,7 @@ Places places_of(const RangeScan& scan) {
         if (stands_for[i] == i) {
             places.place_of[i] = static_cast<std::uint32_t>(places.first.size());
             places.first.push_back(i);
-            const auto& p = scan.points_mm[i];
+            const geometry::Point p = scan.points_mm[i] - origin;
             places.xyz.insert(places.xyz.end(), {p.x(), p.y(), p.z()});
         } else {
             places.place_of[i] = places.place_of[stands_for[i]];

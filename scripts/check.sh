@@ -100,7 +100,7 @@ check_sanitizers() {
 # The programs whose tests use several threads, with plain threads in the place of TBB (base/executor_threads.cpp).
 check_threads() {
   local programs=(test_base test_geometry test_database test_synthesis test_preprocessing test_modeling test_animation
-    test_evaluation test_report)
+    test_builtin test_evaluation test_report)
   configure tsan
   cmake --build --preset tsan --target "${programs[@]}"
   ctest --preset tsan -j "$jobs" -R "^($(IFS='|'; echo "${programs[*]}"))\$"

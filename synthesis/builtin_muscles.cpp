@@ -37,11 +37,11 @@ double tissue_depth_mm(const SheetVertex& p) {
     double depth = 5.5 + 7 * smooth_step(-12, -40, p.t);
     depth += 4 * patch(48, -58, 16, 24) + 2 * patch(70, -60, 16, 26) - 4.5 * patch(0, -64, 15, 7);
     depth *= 1 - 0.9 * patch(mouth_corner, stomion, 6, 5.5);  // the knot of muscles at the corner keeps its form
-    // Within the nasolabial fold, from the wing of the nose to beside the corner, skin is bound to muscle: what a smile
+    // Within the nasolabial fold, from the wing of the nose to above the corner, skin is bound to muscle: what a smile
     // gathers is the cheek, which comes to lie over the fold.
     const double fold = 17 - 0.5 * (p.t + 43);
-    depth *= 1 - 0.85 * smooth_step(fold + 3, fold - 5, a) * smooth_step(-40, -50, p.t) * smooth_step(-96, -84, p.t);
-    depth += 4 * patch(36, 11, 17, 9);                        // the pad of fat that the brow rides on
+    depth *= 1 - 0.85 * smooth_step(fold + 3, fold - 5, a) * smooth_step(-40, -50, p.t) * smooth_step(-82, -72, p.t);
+    depth += 4 * patch(36, 11, 17, 9);  // the pad of fat that the brow rides on
     depth *= 1 - 0.75 * (1 - smooth_step(12, 21, a)) * smooth_step(-60, -52, p.t) * smooth_step(2, -12, p.t);  // nose
     depth *= 1 - plateau(p.v + 8, 7, 16) * hump(p.across_eye, 1.9);
     const double red = smooth_step(upper_lip + 2, upper_lip - 2, p.v) * smooth_step(lower_lip - 2, lower_lip + 2, p.v) *

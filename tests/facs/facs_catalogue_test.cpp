@@ -61,6 +61,25 @@ TEST(BuiltinCatalogue, has_the_eight_units_of_the_thesis_and_those_that_show_on_
         EXPECT_NE(builtin_catalogue().find(number), nullptr) << number;
 }
 
+TEST(BuiltinCatalogue, has_the_lids_of_one_skin_in_41_42_43_45_and_46) {
+    const auto* closed = builtin_catalogue().find(43);
+    ASSERT_NE(closed, nullptr);
+    for (const int number : {41, 42, 45, 46}) {
+        const auto* unit = builtin_catalogue().find(number);
+        ASSERT_NE(unit, nullptr) << number;
+        ASSERT_EQ(unit->zone.size(), closed->zone.size()) << number;
+        EXPECT_EQ(unit->zone.front().lateral_radius, closed->zone.front().lateral_radius) << number;
+        ASSERT_EQ(unit->points.size(), closed->points.size()) << number;
+        for (std::size_t k = 0; k < closed->points.size(); ++k) {
+            EXPECT_EQ(unit->points[k].name, closed->points[k].name) << number;
+            EXPECT_EQ(unit->points[k].placement.lateral, closed->points[k].placement.lateral) << number;
+            EXPECT_EQ(unit->points[k].placement.up, closed->points[k].placement.up) << number;
+        }
+        // A blendshape is the full motion.
+        EXPECT_EQ(unit->arkit, number < 43 ? "" : "eyeBlink") << number;
+    }
+}
+
 TEST(BuiltinCatalogue, knows_the_muscles_that_the_thesis_names) {
     const auto muscle = [](int number) { return builtin_catalogue().find(number)->muscles.front().name; };
     EXPECT_EQ(muscle(1), "frontalis, pars medialis");

@@ -141,10 +141,28 @@ TEST_F(PclCleaning, points_at_one_place_count_once) {
     EXPECT_EQ(report.stray_parts, 1U);
 }
 
-TEST_F(PclCleaning, what_cannot_be_is_refused_by_name) {
-    const auto said = [](const PclCleaningOptions& options) {
-        return test::message_of([&] { (void)clean_with_pcl(test::AnalyticFace{}.scan(), options); });
-    };
+TEST_F(PclCleaning, where_the_frame_has_its_origin_is_of_no_matter) {
+    auto near = test::AnalyticFace{}.scan();
+    for (const int row : {60, 100, 140}) near.points_mm[static_cast<std::size_t>(row * near.cols + 70)].z() += 40;
+    auto far = near;
+    for (auto& p : far.points_mm) p += geometry::Vector(1e7, -2e7, 3e7);  // 10 km and more
+    CleaningReport of_near, of_far;
+    const auto kept_near = clean_with_pcl(near, lenient(), &of_near),
+               kept_far = clean_with_pcl(far, lenient(), &of_far);
+    EXPECT_EQ(of_near.spikes, 3U);
+    EXPECT_EQ(of_far.spikes, of_near.spikes);
+    EXPECT_EQ(of_far.stray_points, of_near.stray_points);
+    EXPECT_EQ(kept_far.points_mm.size(), kept_near.points_mm.size());
+}
+
+TEST_F(PclCleaning, a_scan_without_a_measured_point_is_refused) {
+    RangeScan nothing;
+    nothing.points_mm.emplace_back(NAN, NAN, NAN);
+    EXPECT_THAT(test::message_of([&] { (void)clean_with_pcl(nothing); }), HasSubstr("no measured point"));
+}
+
+TEST(PclCleaningOptions, what_cannot_be_is_refused_by_name) {
+    const auto said = [](const PclCleaningOptions& options) { return test::message_of([&] { options.check(); }); };
     PclCleaningOptions options;
     options.neighbours = 0;
     EXPECT_THAT(said(options), HasSubstr("neighbours is 0"));
@@ -156,9 +174,6 @@ TEST_F(PclCleaning, what_cannot_be_is_refused_by_name) {
     EXPECT_THAT(said(options), HasSubstr("tolerance_mm is -1"));
     options.tolerance_mm = 51;
     EXPECT_THAT(said(options), HasSubstr("up to 50"));
-    RangeScan nothing;
-    nothing.points_mm.emplace_back(NAN, NAN, NAN);
-    EXPECT_THAT(test::message_of([&] { (void)clean_with_pcl(nothing); }), HasSubstr("no measured point"));
     EXPECT_THAT(test::message_of([] { (void)parse_cleaning_method("pvl"); }), HasSubstr("give own or pcl"));
 }
 

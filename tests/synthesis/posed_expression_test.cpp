@@ -68,5 +68,20 @@ TEST(Expression, unknown_codes_are_refused_with_the_codes_there_are) {
     }
 }
 
+TEST(PosedExpression, lids_droop_less_than_they_slit_and_a_slit_less_than_they_close) {
+    const auto blink = [](const char* code) {
+        double weight = 0;
+        for (const auto& part : make_expression(code).main_shapes)
+            if (part.shape == "eyeBlink_L") weight = part.weight;
+        return weight;
+    };
+    EXPECT_GT(blink("41"), 0);
+    EXPECT_LT(blink("41"), blink("42"));
+    EXPECT_LT(blink("42"), blink("43"));
+    EXPECT_EQ(blink("45"), blink("43"));
+    EXPECT_EQ(blink("46L"), blink("43"));
+    EXPECT_EQ(blink("46R"), 0);
+}
+
 }  // namespace
 }  // namespace mimik::synthesis
