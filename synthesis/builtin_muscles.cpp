@@ -37,16 +37,19 @@ double tissue_depth_mm(const SheetVertex& p) {
     double depth = 5.5 + 7 * smooth_step(-12, -40, p.t);
     depth += 4 * patch(48, -58, 16, 24) + 2 * patch(70, -60, 16, 26) - 4.5 * patch(0, -64, 15, 7);
     depth *= 1 - 0.9 * patch(mouth_corner, stomion, 6, 5.5);  // the knot of muscles at the corner keeps its form
-    // Within the nasolabial fold, from the wing of the nose to above the corner, skin is bound to muscle: what a smile
-    // gathers is the cheek, which comes to lie over the fold.
-    const double fold = 17 - 0.5 * (p.t + 43);
-    depth *= 1 - 0.85 * smooth_step(fold + 3, fold - 5, a) * smooth_step(-40, -50, p.t) * smooth_step(-82, -72, p.t);
-    depth += 4 * patch(36, 11, 17, 9);  // the pad of fat that the brow rides on
+    depth += 4 * patch(36, 11, 17, 9);                        // the pad of fat that the brow rides on
     depth *= 1 - 0.75 * (1 - smooth_step(12, 21, a)) * smooth_step(-60, -52, p.t) * smooth_step(2, -12, p.t);  // nose
     depth *= 1 - plateau(p.v + 8, 7, 16) * hump(p.across_eye, 1.9);
     const double red = smooth_step(upper_lip + 2, upper_lip - 2, p.v) * smooth_step(lower_lip - 2, lower_lip + 2, p.v) *
                        (1 - smooth_step(mouth_corner - 5, mouth_corner + 2, a));
     return depth * (1 - red) * (1 - smooth_step(44, 76, a));
+}
+
+/// How much of what is gathered does not rise: within the nasolabial fold, from the wing of the nose to above the
+/// corner, skin is bound to muscle. What a smile gathers is the cheek, which comes to lie over the fold.
+double bound_share(const SheetVertex& p) {
+    const double a = std::abs(p.s), fold = 17 - 0.5 * (p.t + 43);
+    return 0.85 * smooth_step(fold + 3, fold - 5, a) * smooth_step(-40, -50, p.t) * smooth_step(-96, -84, p.t);
 }
 
 /// The line with its corners cut (Chaikin), so that a furrow bends like skin.
@@ -90,6 +93,7 @@ MuscleModel::MuscleModel(const Sheet& sheet, std::vector<Point> mean_face_mm)
     for (std::uint32_t i = 0; i < sheet.vertices.size(); ++i) {
         const auto& p = sheet.vertices[i];
         depth_.push_back(tissue_depth_mm(p));
+        bound_.push_back(bound_share(p));
         rows[p.row].add(i, p.s);
         // A column that the mouth cuts is two lines: upper lip and lower lip.
         columns[2 * p.column + (sheet.lower_lip_side[i] && std::abs(p.s) < place::mouth_corner ? 1 : 0)].add(i, -p.t);
@@ -161,9 +165,11 @@ void MuscleModel::gather(std::span<const Point> neutral_mm, std::vector<Vector>&
     }
     std::vector<double> rise(moved.size(), 0);
     for (std::size_t i = 0; i < moved.size(); ++i)
-        if (before[i] > 0)
-            rise[i] = depth_[i] *
-                      std::clamp(before[i] / std::max(after[i], 0.1 * before[i]) - 1, most_stretched, most_crowded);
+        if (before[i] > 0) {
+            const double crowded =
+                std::clamp(before[i] / std::max(after[i], 0.1 * before[i]) - 1, most_stretched, most_crowded);
+            rise[i] = depth_[i] * crowded * (crowded > 0 ? 1 - bound_[i] : 1);
+        }
     for (int round = 0; round < spread_rounds; ++round)
         for (const auto& line : lines_) smooth_along(line, rise);
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += rise[i] * normals_[i];

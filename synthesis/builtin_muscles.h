@@ -108,6 +108,7 @@ private:
     std::vector<geometry::Vector> normals_;  ///< of the bare mean face: smooth over nose, lips and lids
     std::vector<geometry::Triangle> triangles_;
     std::vector<double> depth_;                       ///< of the soft tissue that is gathered and thinned, mm
+    std::vector<double> bound_;                       ///< share of what is gathered that does not rise
     std::vector<SheetLine> lines_;                    ///< all columns, then all rows
     std::size_t columns_ = 0;                         ///< how many of the lines are columns
     std::vector<double> held_;                        ///< 0 at the rim of the sheet, 1 inside
