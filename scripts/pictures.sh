@@ -180,6 +180,7 @@ awk -F, '
 for picture in made/*.png; do pngquant --force --ext .png --nofs --speed 1 256 "$picture"; done
 cd - >/dev/null
 for picture in docs/images/*; do
+  [ "$(basename "$picture")" != lids.png ] || continue
   [ -s "$out/made/$(basename "$picture")" ] || { echo "pictures.sh: nothing draws $picture; add it" >&2; exit 1; }
 done
 for picture in "$out"/made/*; do
