@@ -149,7 +149,11 @@ void add_animate_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--target", arguments->target, "Subject whose first neutral face is animated");
     auto* landmarks = command->add_option("--landmarks", arguments->landmarks, "On the --mesh, by Mimik's names");
-    command->add_option("--mesh", arguments->mesh, "Or a mesh of your own that is animated as it is")->needs(landmarks);
+    auto* mesh = command->add_option("--mesh", arguments->mesh, "Or a mesh of your own that is animated as it is");
+    mesh->needs(landmarks);
+    command->add_option("--unit", arguments->unit, "Unit of --mesh and --landmarks: mm, cm, m or inch")
+        ->needs(mesh)
+        ->capture_default_str();
     command
         ->add_option("--au,--expression", arguments->action_units,
                      "AU or emotion, side and magnitude: 12, 12:0.5, AU4_L, HAPPY:0.8; repeat or 4,12; arkit: all that "

@@ -20,6 +20,7 @@ struct AnimateArguments {
     MethodArguments method;
     std::string workspace, source = "mean", target, output, frame = "scanner", combine = "sum";
     std::filesystem::path mesh, landmarks;  ///< animated in the place of a target of the workspace
+    std::string unit = "mm";                ///< of both
     std::vector<std::string> action_units, model_files, hold;
     std::string regions;
     bool keep_bridged = false, arkit_names = false;

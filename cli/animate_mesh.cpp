@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "cli/animate_job.h"
 #include "cli/error_report.h"
+#include "database/doctor.h"
 #include "database/file_origin.h"
 #include "database/hidden_subjects.h"
 #include "io/landmark_io.h"
@@ -68,6 +69,21 @@ std::filesystem::path glb_texture(const AnimateArguments& arguments, const io::M
     return image;
 }
 
+/// A face of another size than people's is in another unit, and no length of it would be in millimetres.
+void refuse_other_unit(const AnimateArguments& arguments, const OwnMesh& own) {
+    database::LoadedScan loaded;
+    loaded.entry.scan_file = arguments.mesh;
+    loaded.scan.points_mm = own.file.mesh.vertices_mm;
+    loaded.scan.faces = own.file.mesh.faces;
+    loaded.landmarks = own.landmarks;
+    for (const auto& finding : database::reasons_to_refuse(loaded))
+        if (finding.kind == "unit")
+            throw InputError(
+                fmt::format("{}: {}; say the unit of the mesh and its landmarks with --unit mm, cm, m or "
+                            "inch, or scale both",
+                            arguments.mesh.string(), finding.what));
+}
+
 void write_moved(const AnimateArguments& arguments, io::MeshFile& file, const io::MadeBy& made_by,
                  std::vector<std::string>& remarks) {
     const auto output = base::where_links_lead(arguments.output);
@@ -89,9 +105,10 @@ void write_moved(const AnimateArguments& arguments, io::MeshFile& file, const io
 OwnMesh read_own_mesh(const AnimateArguments& arguments) {
     for (const auto& file : {arguments.mesh, arguments.landmarks}) database::refuse_hidden_file(file);
     refuse_range_scan(arguments.mesh);
-    OwnMesh own{
-        io::read_mesh_file(arguments.mesh, io::LengthUnit::millimetre, io::MeshParts::all, io::BadTexture::report), {}};
-    own.landmarks = io::read_landmarks(arguments.landmarks, own.file.mesh.vertices_mm);
+    const auto unit = io::parse_length_unit(arguments.unit);
+    OwnMesh own{io::read_mesh_file(arguments.mesh, unit, io::MeshParts::all, io::BadTexture::report), {}};
+    own.landmarks = io::read_landmarks(arguments.landmarks, own.file.mesh.vertices_mm, unit);
+    refuse_other_unit(arguments, own);
     return own;
 }
 

@@ -8,6 +8,7 @@ borrow_workspace
 mesh=$(find panel -name target_neutral.ply) marks=$(find panel -name target_landmarks.csv)
 rm -r work1
 [ -s "$mesh" ] && [ -s "$marks" ] || fail "no mesh to begin with"
+own=(animate --mesh "$mesh" --landmarks "$marks")
 faces() { sed -n 's/^element face //p' "$1" | head -n 1; }
 largest() { sed -n 's/^ *"largest_displacement_mm": \(.*\),/\1/p' "$1" | tail -n 1; }
 
@@ -38,6 +39,16 @@ claim "a mesh of one's own goes into a GLB with its expressions"
 
 expect_code 2 $'is a subject of a workspace\ngive WORK' "$mimik" animate --target bs001 --au 12 -o none.ply
 expect_code 2 $'--source\ngive WORK' "$mimik" animate --source bs000 --mesh "$mesh" --landmarks "$marks" --au 12 -o none.ply
+awk -F, -v OFS=, 'NR > 1 { for (k = 2; k <= 4; ++k) $k = sprintf("%.9f", $k / 10) } { print }' "$marks" >cm.csv
+"$mimik" "${own[@]}" --au 12:0 -o mm.obj --quiet
+awk '$1 == "v" { printf "v %.9f %.9f %.9f\n", $2 / 10, $3 / 10, $4 / 10; next } { print }' mm.obj >cm.obj
+expect_code 2 $'cm.obj
+--unit mm, cm' "$mimik" animate --mesh cm.obj --landmarks cm.csv --au 12 -o none.ply
+"$mimik" animate --mesh cm.obj --landmarks cm.csv --unit cm --au 12 -o of_cm.ply --quiet
+"$mimik" distance of_cm.ply smile.ply --json >unit.json
+awk '/"max"/ { sub(/.*: /, ""); if ($0 + 0 > 1e-3) exit 1 }' unit.json || fail "another unit, another face"
+claim "a mesh in another unit is refused until its unit is said, and comes out in millimetres"
+
 "$mimik" synthesize db --subjects 3 --expressions 12 --quiet >/dev/null
 "$mimik" preprocess db -o work --quiet >/dev/null
 "$mimik" model work --source bs000 --au 12 --quiet >/dev/null
@@ -50,7 +61,6 @@ claim "a stored model moves a mesh without its workspace, and whom it shows stay
 
 expect_code 2 $'--method thesis\ngive WORK' "$mimik" animate --method thesis --mesh "$mesh" --landmarks "$marks" --au 12 -o none.ply
 expect_code 2 "the built-in faces do not show" "$mimik" animate --mesh "$mesh" --landmarks "$marks" --au 11 -o none.ply
-own=(animate --mesh "$mesh" --landmarks "$marks")
 expect_code 2 "--au arkit:0.5" "$mimik" "${own[@]}" --au arkit:0.5 -o none.glb
 expect_code 2 "none.ply holds no blendshapes" "$mimik" "${own[@]}" --au arkit -o none.ply
 expect_code 2 "--combine parallel" "$mimik" "${own[@]}" --au arkit -o none.glb --combine parallel
