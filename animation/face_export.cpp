@@ -37,6 +37,7 @@ void drop_unused_vertices(Mesh& mesh, std::vector<std::uint32_t>& kept) {
     std::vector<std::uint8_t> used(mesh.vertices_mm.size(), 0);
     for (const auto corner : mesh.faces.corners) used[corner] = 1;
     std::vector<std::uint32_t> renamed;
+    renamed.reserve(used.size());
     std::uint32_t next = 0;
     for (const auto is_used : used) renamed.push_back(is_used ? next++ : next);
     for (auto& corner : mesh.faces.corners) corner = renamed[corner];

@@ -25,6 +25,7 @@ std::vector<std::vector<std::uint32_t>> vertices_of_parts(std::span<const std::u
     for (std::uint32_t v = 0; v < part_of.size(); ++v)
         if (part_of[v] != geometry::not_welded) by_part[part_of[v]].push_back(v);
     std::vector<std::vector<std::uint32_t>> parts;
+    parts.reserve(by_part.size());
     for (auto& [part, vertices] : by_part) parts.push_back(std::move(vertices));
     return parts;
 }

@@ -220,7 +220,7 @@ Vector slid(const EyeLids& eye, const LidPlace& place, const facs::LidMotion& mo
     const double lower_to = margin.lower_rad + place.moves * motion.lower_up * height;
     const double upper_to = std::max(margin.upper_rad - place.moves * motion.upper_down * height, lower_to);
     double elevation = place.elevation_rad, rho = place.rho_mm;
-    const Vector rest(place.x_mm, rho * std::sin(elevation), rho * std::cos(elevation));
+    Vector rest(place.x_mm, rho * std::sin(elevation), rho * std::cos(elevation));
     if (!(height > 0)) return rest;
     const double closed = std::clamp(1.0 - (upper_to - lower_to) / height, 0.0, 1.0);
     const bool upper = elevation > (margin.upper_rad + margin.lower_rad) / 2;

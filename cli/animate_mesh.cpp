@@ -37,13 +37,13 @@ void carry_origin(const AnimateArguments& arguments, io::MadeBy& made_by) {
     std::vector<std::filesystem::path> files = {arguments.mesh, arguments.landmarks};
     for (const auto& typed : arguments.model_files)
         files.emplace_back(std::filesystem::exists(typed) ? typed : facs::split_magnitude(typed).text);
-    for (auto& [key, value] : database::said_in_files(database::origin_to_carry(files))) {
-        const auto said =
-            std::find_if(made_by.begin(), made_by.end(), [&](const auto& entry) { return entry.first == key; });
+    for (auto& saying : database::said_in_files(database::origin_to_carry(files))) {
+        const auto said = std::find_if(made_by.begin(), made_by.end(),
+                                       [&](const auto& entry) { return entry.first == saying.first; });
         if (said == made_by.end())
-            made_by.emplace_back(key, value);
-        else if (key == "subjects")
-            said->second += " " + value;
+            made_by.push_back(std::move(saying));
+        else if (saying.first == "subjects")
+            said->second += " " + saying.second;
     }
 }
 

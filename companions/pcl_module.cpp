@@ -17,7 +17,7 @@ namespace {
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;  // of the types that Debian's libraries have compiled
 
 Cloud::Ptr cloud_of(const double* xyz, std::size_t count) {
-    const Cloud::Ptr cloud(new Cloud);
+    Cloud::Ptr cloud(new Cloud);
     cloud->reserve(count);
     for (std::size_t i = 0; i < count; ++i)
         cloud->push_back(

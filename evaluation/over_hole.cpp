@@ -46,8 +46,11 @@ public:
 private:
     enum Part : std::uint8_t { empty, full, outside, hole, small_hole };
 
-    [[nodiscard]] std::uint8_t& at(int row, int col) { return part_[static_cast<std::size_t>(row * cols_ + col)]; }
-    [[nodiscard]] std::uint8_t at(int row, int col) const { return part_[static_cast<std::size_t>(row * cols_ + col)]; }
+    [[nodiscard]] std::size_t cell(int row, int col) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col);
+    }
+    [[nodiscard]] std::uint8_t& at(int row, int col) { return part_[cell(row, col)]; }
+    [[nodiscard]] std::uint8_t at(int row, int col) const { return part_[cell(row, col)]; }
 
     static double smallest_hole_cells(const QuadGrid& grid) {
         constexpr double smallest_mm2 = std::numbers::pi * over_mm * over_mm;
@@ -111,20 +114,20 @@ public:
         if (!axes || !upper || !lower) return std::nullopt;  // corners are there, or there were no axes
         RedOfLips lips;
         lips.axes_ = *axes;
-        lips.right_mm = axes->lateral.dot(landmarks.position_mm("mouth_corner_right"));
-        lips.left_mm = axes->lateral.dot(landmarks.position_mm("mouth_corner_left"));
-        lips.low_mm = axes->up.dot(lower->position_mm);
-        lips.high_mm = axes->up.dot(upper->position_mm);
+        lips.right_mm_ = axes->lateral.dot(landmarks.position_mm("mouth_corner_right"));
+        lips.left_mm_ = axes->lateral.dot(landmarks.position_mm("mouth_corner_left"));
+        lips.low_mm_ = axes->up.dot(lower->position_mm);
+        lips.high_mm_ = axes->up.dot(upper->position_mm);
         return lips;
     }
     [[nodiscard]] bool holds(const Point& p) const {
         const double across_mm = axes_.lateral.dot(p), up_mm = axes_.up.dot(p);
-        return across_mm > right_mm && across_mm < left_mm && up_mm > low_mm && up_mm < high_mm;
+        return across_mm > right_mm_ && across_mm < left_mm_ && up_mm > low_mm_ && up_mm < high_mm_;
     }
 
 private:
     geometry::HeadAxes axes_;
-    double right_mm = 0, left_mm = 0, low_mm = 0, high_mm = 0;
+    double right_mm_ = 0, left_mm_ = 0, low_mm_ = 0, high_mm_ = 0;
 };
 
 class OverHole : public Estimator {

@@ -125,7 +125,7 @@ std::vector<const ScanEntry*> selected_scans(const database::ScanDatabase& datab
 
 std::vector<const ScanEntry*> scans_to_preprocess(const database::ScanDatabase& database, const fs::path& root,
                                                   const PreprocessOptions& options) {
-    const auto selected = selected_scans(database, options);
+    auto selected = selected_scans(database, options);
     const auto earlier = earlier_list(root);
     if (!earlier) return selected;
     std::vector<const ScanEntry*> scans;

@@ -63,6 +63,7 @@ std::vector<std::optional<io::Image>> read_images(const database::LoadedScan& lo
                                                   std::vector<std::string>& remarks) {
     const auto& named = loaded.scan.charts->images;
     std::vector<std::filesystem::path> files;
+    files.reserve(named.size());
     for (const auto& name : named) files.push_back(loaded.entry.scan_file.parent_path() / name);
     if (files.size() < 2) files = {loaded.entry.texture_file};
     std::vector<std::optional<io::Image>> images;
