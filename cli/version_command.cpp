@@ -13,15 +13,11 @@
 #include "base/pcl_module.h"
 #include "cli/command.h"
 #include "cli/figure_start.h"
+#include "cli/libraries.h"
 #include "io/json_values.h"
 
 namespace mimik::cli {
 namespace {
-
-/// As CMake found them: {"Eigen", "3.4.0"}, ...
-const std::vector<std::pair<std::string, std::string>> libraries = {
-#include "cli/libraries.inc"
-};
 
 std::string system_name() {
     utsname name{};
@@ -49,7 +45,7 @@ nlohmann::ordered_json facts() {
         document[key] = file.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(file.string());
     }
     auto& list = document["libraries"] = nlohmann::ordered_json::object();
-    for (const auto& [name, version] : libraries) list[name] = version;
+    for (const auto& [name, version] : libraries()) list[name] = version;
     return document;
 }
 

@@ -8,6 +8,12 @@
 
 namespace mimik::evaluation {
 
+std::string variant_of(const std::string& method, double magnitude) {
+    return magnitude == 1.0 ? method : fmt::format("{}@{}", method, magnitude);
+}
+
+std::string variant_of(const CaseKey& key) { return variant_of(key.method, key.magnitude); }
+
 std::string_view case_row_header() {
     return "source,target,expression,method,magnitude,estimator,region,metric,value,unit,reason";
 }

@@ -31,6 +31,15 @@ struct CaseRow {
     bool operator==(const CaseRow&) const = default;
 };
 
+/// The method and, where it is not 1, the magnitude: "mean", "mean@0.8". Scores of different magnitudes are never
+/// mixed.
+[[nodiscard]] std::string variant_of(const CaseKey& key);
+[[nodiscard]] std::string variant_of(const std::string& method, double magnitude);
+
+/// The estimator's name in rows that say how an experiment went, not how true a face is: what failed, what is worth
+/// knowing, how many take part. No score is made of them.
+inline constexpr std::string_view run_estimator = "run";
+
 /// "source,target,expression,method,magnitude,estimator,region,metric,value,unit,reason"
 [[nodiscard]] std::string_view case_row_header();
 /// One line of CSV without its end; numbers with all their digits.

@@ -62,6 +62,27 @@ CaseStore::CaseStore(fs::path file)
     if (!out_.flush()) throw InputError(fmt::format("{}: cannot be written", name()));
 }
 
+CaseStore::CaseStore(fs::path file, Kept) : file_(std::move(file)) {
+    std::error_code none;
+    if (fs::exists(file_, none)) {
+        std::uintmax_t whole_bytes = 0;
+        units_ = read_case_rows(
+            file_, [](const CaseRow&) {}, &whole_bytes);
+        fs::resize_file(file_, whole_bytes, none);
+        if (none) throw InputError(fmt::format("{}: cannot be cut ({}); check the file", name(), none.message()));
+        out_.open(file_, std::ios::binary | std::ios::app);
+    } else {
+        // With its first line at once, or not at all: a run that is stopped here must be able to go on.
+        base::write_atomically(file_, fmt::format("{}\n", case_row_header()));
+        out_.open(file_, std::ios::binary | std::ios::app);
+    }
+    if (!out_) throw InputError(fmt::format("{}: cannot be written", name()));
+}
+
+CaseStore CaseStore::gone_on_with(fs::path file) { return {std::move(file), Kept()}; }
+
+CaseStore::CaseStore(CaseStore&&) noexcept = default;
+
 std::string CaseStore::name() const {
     return file_.empty() ? "temporary file in " + fs::temp_directory_path().string() : file_.string();
 }
@@ -83,7 +104,7 @@ void CaseStore::append(const std::string& unit, std::span<const CaseRow> rows) {
 }
 
 void CaseStore::read(const std::function<void(const CaseRow&)>& visit) const {
-    const auto units = read_case_rows(written_->path(), visit);
+    const auto units = read_case_rows(path(), visit);
     if (units != units_)
         throw InputError(fmt::format("{}: {} of {} units can be read back; it was damaged while it was written", name(),
                                      units.size(), units_.size()));
@@ -91,7 +112,7 @@ void CaseStore::read(const std::function<void(const CaseRow&)>& visit) const {
 
 void CaseStore::finish() {
     out_.close();
-    if (file_.empty()) return;
+    if (file_.empty() || !written_) return;
     try {
         written_->become(file_);
     } catch (const std::system_error& e) {
@@ -99,27 +120,32 @@ void CaseStore::finish() {
     }
 }
 
-std::set<std::string> read_case_rows(const fs::path& file, const std::function<void(const CaseRow&)>& visit) {
+std::set<std::string> read_case_rows(const fs::path& file, const std::function<void(const CaseRow&)>& visit,
+                                     std::uintmax_t* whole_bytes) {
     std::ifstream in(file, std::ios::binary);
-    return read_case_rows(in, file.string(), visit);
+    return read_case_rows(in, file.string(), visit, whole_bytes);
 }
 
 std::set<std::string> read_case_rows(std::istream& in, const std::string& name_of_file,
-                                     const std::function<void(const CaseRow&)>& visit) {
+                                     const std::function<void(const CaseRow&)>& visit, std::uintmax_t* whole_bytes) {
     constexpr std::size_t most_rows = 2'000'000;  // of a unit: 1000 sources by 50 methods leave 800,000
     std::string line;
-    if (!next_line(in, line, name_of_file) || line != case_row_header())
+    if (!next_line(in, line, name_of_file) || line != case_row_header() || in.eof())
         throw InputError(
             fmt::format("{}: is no table of cases; its first line has to be '{}'", name_of_file, case_row_header()));
     std::set<std::string> units;
     std::vector<CaseRow> rows;
     base::ContentHash hash;
+    std::uintmax_t bytes = line.size() + 1;
+    if (whole_bytes) *whole_bytes = bytes;
     while (next_line(in, line, name_of_file)) {
+        bytes += line.size() + 1;
         if (line.starts_with(unit_mark)) {
             const auto name = line.substr(unit_mark.size(), line.rfind(": ") - unit_mark.size());
-            if (line != unit_line(name, rows.size(), hash)) return units;
+            if (in.eof() || line != unit_line(name, rows.size(), hash)) return units;  // cut off or damaged
             for (const auto& row : rows) visit(row);
             units.insert(name);
+            if (whole_bytes) *whole_bytes = bytes;
             rows.clear();
             hash = {};
             continue;

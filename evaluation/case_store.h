@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -25,13 +26,19 @@ public:
     /// In `file`, begun anew. Until finish() it is a temporary beside it (base/temporary.h). @throws InputError if it
     /// cannot be written.
     explicit CaseStore(std::filesystem::path file);
+    /// In a file that stays however the program ends, and is gone on with: the whole units that it holds count as
+    /// stored, what follows them is cut off. finish() leaves it where it is.
+    /// @throws InputError if it is there and no such file, or cannot be written.
+    [[nodiscard]] static CaseStore gone_on_with(std::filesystem::path file);
     ~CaseStore();
+    CaseStore(CaseStore&&) noexcept;
     CaseStore(const CaseStore&) = delete;
     CaseStore& operator=(const CaseStore&) = delete;
 
     /// @param unit  one line of text, not stored before. @throws InputError if the disk takes no more.
     void append(const std::string& unit, std::span<const CaseRow> rows);
     [[nodiscard]] std::size_t units() const { return units_.size(); }
+    [[nodiscard]] bool has(const std::string& unit) const { return units_.contains(unit); }
 
     /// All rows that were appended, in that order. @throws InputError naming the file if they cannot be read back
     /// whole.
@@ -40,22 +47,28 @@ public:
     void finish();
 
 private:
+    struct Kept {};
+    CaseStore(std::filesystem::path file, Kept kept);
     [[nodiscard]] std::string name() const;  // for messages
+    [[nodiscard]] const std::filesystem::path& path() const { return written_ ? written_->path() : file_; }
 
-    std::filesystem::path file_;  // empty: temporary
-    std::unique_ptr<base::TemporaryFile> written_;
+    std::filesystem::path file_;                    // empty: temporary
+    std::unique_ptr<base::TemporaryFile> written_;  // none: file_ itself
     std::ofstream out_;
     std::set<std::string> units_;
 };
 
 /// The whole units of a store's file, row by row: up to the first line that does not fit its checksum. One unit is in
 /// memory at a time.
+/// @param whole_bytes  how much of the file those units take, with its first line; may be null
 /// @return the names of the units. @throws InputError if it is no such file, a line has more than 64 kB or a unit more
 /// than two million rows.
 std::set<std::string> read_case_rows(const std::filesystem::path& file,
-                                     const std::function<void(const CaseRow&)>& visit);
+                                     const std::function<void(const CaseRow&)>& visit,
+                                     std::uintmax_t* whole_bytes = nullptr);
 /// The same from a stream. @param name  of the file, for messages
 std::set<std::string> read_case_rows(std::istream& in, const std::string& name,
-                                     const std::function<void(const CaseRow&)>& visit);
+                                     const std::function<void(const CaseRow&)>& visit,
+                                     std::uintmax_t* whole_bytes = nullptr);
 
 }  // namespace mimik::evaluation

@@ -24,24 +24,65 @@ using database::ScanId;
 
 namespace {
 
+/// Rows that say how the run went: they lie beside the measures in the store, so that a run which goes on where another
+/// was stopped tells the whole story.
+namespace note {
+constexpr const char* failure = "failure";
+constexpr const char* remark = "remark";
+constexpr const char* zone = "zone";                  // its reason: who drew it
+constexpr const char* participants = "participants";  // its value: how many
+}  // namespace note
+
+CaseRow note_row(const std::string& expression, const char* kind, const std::string& text,
+                 const std::string& who = {}) {
+    return {{"", who, expression, ""}, std::string(run_estimator), "", kind, std::nullopt, "", text};
+}
+
 /// One run: what its expressions share.
 class ExperimentRun {
 public:
     ExperimentRun(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue, const ExperimentPlan& plan,
-                  CaseStore& store, const std::function<void(const std::string&)>& progress)
-        : reader_(reader), catalogue_(catalogue), plan_(plan), store_(store), progress_(progress) {}
+                  CaseStore& store, const RunWatch& watch)
+        : reader_(reader), catalogue_(catalogue), plan_(plan), store_(store), watch_(watch) {}
 
     void run() {
         for (const auto& reason : plan_.left_out) failures_.add(reason);
         find_usable();
-        for (const auto& planned : plan_.expressions) score(planned);
+        for (const auto& planned : plan_.expressions) {
+            score(planned);
+            if (watch_.expression)
+                watch_.expression(planned.expression.code(), scores_of([&](const auto& visit) { store_.read(visit); }));
+        }
     }
     [[nodiscard]] std::vector<std::string> failures() const { return failures_.sorted(); }
     [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
-    /// Expressions whose zones the catalogue drew.
-    [[nodiscard]] const std::vector<std::string>& zones_by_catalogue() const { return zones_by_catalogue_; }
 
 private:
+    static std::string cast_unit(const std::string& code) { return code + " cast"; }
+    static std::string target_unit(const std::string& code, const ScanId& target) {
+        return fmt::format("{} {}", code, target.subject);
+    }
+
+    /// Whether an earlier run did every unit of an expression. Who takes no part has none, so the cast says how many.
+    [[nodiscard]] bool all_stored(const PlannedExpression& planned) const {
+        const auto& code = planned.expression.code();
+        if (!store_.has(cast_unit(code))) return false;
+        std::size_t stored = 0;
+        for (const auto& id : planned.performances) stored += store_.has(target_unit(code, id)) ? 1 : 0;
+        return stored == stored_targets().at(code);
+    }
+    /// How many targets each stored cast has.
+    [[nodiscard]] const std::map<std::string, std::size_t>& stored_targets() const {
+        if (!stored_targets_) {
+            stored_targets_.emplace();
+            store_.read([&](const CaseRow& row) {
+                if (row.estimator == run_estimator && row.metric == note::participants)
+                    (*stored_targets_)[row.key.expression] = static_cast<std::size_t>(row.value.value_or(0));
+            });
+        }
+        return *stored_targets_;
+    }
+
     /// A neutral that cannot be used is reported once, not once per expression.
     void find_usable() {
         std::vector<char> usable(plan_.subjects.size(), 0);
@@ -65,30 +106,66 @@ private:
     }
 
     void score(const PlannedExpression& planned) {
+        const auto& code = planned.expression.code();
+        if (all_stored(planned)) {
+            if (watch_.unit)
+                for (const auto& id : planned.performances)
+                    if (store_.has(target_unit(code, id))) watch_.unit(target_unit(code, id));
+            return;
+        }
         std::vector<ScanId> performances;
         for (const auto& id : planned.performances)
             if (usable_.contains(id.subject)) performances.push_back(id);
         const animation::LearningTask task{planned.expression, reader_.workspace().average(), catalogue_,
                                            reader_.workspace().registrations()};
-        const auto cast = gather_cast(reader_, task, performances, plan_.methods, failures_, plan_.zones);
-        const auto& code = planned.expression.code();
-        const std::size_t count = cast.participants.size();
-        if (count < fewest_subjects)
-            return failures_.add(fmt::format("expression '{}': left out: {} left; an experiment needs {} or more", code,
-                                             base::counted(count, "subject is", "subjects are"), fewest_subjects));
-        for (const auto& remark : cast.remarks)
-            if (std::find(remarks_.begin(), remarks_.end(), remark) == remarks_.end()) remarks_.push_back(remark);
-        if (cast.zone_from == ZoneSource::catalogue && plan_.zones != ZoneSource::catalogue)
-            zones_by_catalogue_.push_back(code);
+        FailureList failures;
+        const auto cast = gather_cast(reader_, task, performances, plan_.methods, failures, plan_.zones);
+        std::vector<std::size_t> targets;
+        for (std::size_t t = 0; t < cast.participants.size(); ++t)
+            if (plan_.is_target(cast.participants[t].subject)) targets.push_back(t);
+        const bool enough = cast.participants.size() >= fewest_subjects;
+        if (!enough)
+            failures.add(fmt::format("expression '{}': left out: {} left; an experiment needs {} or more", code,
+                                     base::counted(cast.participants.size(), "subject is", "subjects are"),
+                                     fewest_subjects));
+        store_cast(cast, enough ? targets.size() : 0, failures);
+        if (enough) score_targets(cast, targets);
+    }
+
+    void store_cast(const Cast& cast, std::size_t targets, const FailureList& failures) {
+        const auto& code = cast.expression.code();
+        if (store_.has(cast_unit(code))) return;
+        std::vector<CaseRow> rows = {note_row(code, note::participants, "")};
+        rows.back().value = static_cast<double>(targets);
+        rows.back().unit = "targets";
+        if (cast.zone_from == ZoneSource::catalogue && plan_.zones != ZoneSource::catalogue && targets > 0)
+            rows.push_back(note_row(code, note::zone, to_string(cast.zone_from)));
+        for (const auto& remark : cast.remarks) rows.push_back(note_row(code, note::remark, remark));
+        for (const auto& failure : failures.sorted()) rows.push_back(note_row(code, note::failure, failure));
+        store_.append(cast_unit(code), rows);
+    }
+
+    void score_targets(const Cast& cast, const std::vector<std::size_t>& targets) {
+        const auto& code = cast.expression.code();
+        std::vector<std::size_t> open;
+        for (const auto t : targets)
+            if (!store_.has(target_unit(code, cast.participants[t])))
+                open.push_back(t);
+            else if (watch_.unit)
+                watch_.unit(target_unit(code, cast.participants[t]));
         in_order(
-            count,
-            [&](std::size_t t) {
-                auto rows = score_target(reader_, plan_, cast, t, failures_);
-                if (progress_) progress_(fmt::format("{} {}", code, cast.participants[t].subject));
+            open.size(),
+            [&](std::size_t k) {
+                const auto& target = cast.participants[open[k]];
+                FailureList failures;
+                auto rows = score_target(reader_, plan_, cast, open[k], failures);
+                for (const auto& failure : failures.sorted())
+                    rows.push_back(note_row(code, note::failure, failure, target.subject));
+                if (watch_.unit) watch_.unit(target_unit(code, target));
                 return rows;
             },
-            [&](std::size_t t, const std::vector<CaseRow>& rows) {
-                store_.append(fmt::format("{} {}", code, cast.participants[t].subject), rows);
+            [&](std::size_t k, const std::vector<CaseRow>& rows) {
+                store_.append(target_unit(code, cast.participants[open[k]]), rows);
             });
     }
 
@@ -96,11 +173,33 @@ private:
     const facs::FacsCatalogue& catalogue_;
     const ExperimentPlan& plan_;
     CaseStore& store_;
-    const std::function<void(const std::string&)>& progress_;
+    const RunWatch& watch_;
     FailureList failures_;
     std::set<std::string> usable_;
-    std::vector<std::string> remarks_, zones_by_catalogue_;
+    std::vector<std::string> remarks_;
+    mutable std::optional<std::map<std::string, std::size_t>> stored_targets_;  // of an earlier run
 };
+
+/// What the rows of a whole run tell beside measures.
+struct RunNotes {
+    std::vector<std::string> failures, remarks, zones_by_catalogue;  ///< failures sorted, remarks as they came
+};
+
+void add_once(std::vector<std::string>& list, const std::string& text) {
+    if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
+}
+
+RunNotes notes_of(const CaseStore& store, const ExperimentRun& run) {
+    RunNotes notes{run.failures(), run.remarks(), {}};
+    store.read([&](const CaseRow& row) {
+        if (row.estimator != run_estimator) return;
+        if (row.metric == note::failure) add_once(notes.failures, row.reason);
+        if (row.metric == note::remark) add_once(notes.remarks, row.reason);
+        if (row.metric == note::zone) add_once(notes.zones_by_catalogue, row.key.expression);
+    });
+    std::sort(notes.failures.begin(), notes.failures.end());
+    return notes;
+}
 
 /// Mean of what is known.
 template <class Number>
@@ -128,8 +227,9 @@ Faults mean_faults(const std::map<std::string, Score>& scores) {
     return mean;
 }
 
-MethodScores scores_of_method(const animation::Method& method, const ExperimentPlan& plan, const ScoreTable& table) {
-    MethodScores scores{.method = method.title(),
+MethodScores scores_of_method(const animation::Method& method, double magnitude, const ExperimentPlan& plan,
+                              const ScoreTable& table) {
+    MethodScores scores{.method = variant_of(method.title(), magnitude),
                         .kind = method.needs(),
                         .reference = method.needs_truth(),
                         .bound = method.name() == bound_of(method.needs()),
@@ -139,7 +239,7 @@ MethodScores scores_of_method(const animation::Method& method, const ExperimentP
                         .explained_whole = {},
                         .share = {},
                         .faults = {}};
-    const auto found = table.find(method.name());
+    const auto found = table.find(variant_of(method.name(), magnitude));
     for (const auto& planned : plan.expressions) {
         auto& score = scores.per_expression[planned.expression.code()];
         if (found == table.end()) continue;
@@ -164,37 +264,48 @@ void add_shares(std::vector<MethodScores>& rows) {
 }  // namespace
 
 ExperimentReport run_experiment(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
-                                const ExperimentPlan& plan, const std::filesystem::path& cases,
-                                const std::function<void(const std::string&)>& progress) {
+                                const ExperimentPlan& plan, CaseStore& store, const RunWatch& watch) {
     const auto start = std::chrono::steady_clock::now();
-    auto store = cases.empty() ? std::make_unique<CaseStore>() : std::make_unique<CaseStore>(cases);
-    ExperimentRun run(reader, catalogue, plan, *store, progress);
+    ExperimentRun run(reader, catalogue, plan, store, watch);
     run.run();
-    if (store->units() == 0)
-        throw InputError(fmt::format("no expression is left to score ({})", fmt::join(run.failures(), "; ")));
-    const auto table = scores_of([&](const auto& visit) { store->read(visit); });
-    store->finish();
+    auto notes = notes_of(store, run);
+    const auto table = scores_of([&](const auto& visit) { store.read(visit); });
+    if (table.empty())
+        throw InputError(fmt::format("no expression is left to score ({})", fmt::join(notes.failures, "; ")));
+    store.finish();
 
     ExperimentReport report;
     report.subjects = plan.subjects;
     for (const auto& planned : plan.expressions) report.expressions.push_back(planned.expression);
     report.whole_face = plan.whole_face;
     report.zones = to_string(plan.zones);
-    report.zones_by_catalogue = run.zones_by_catalogue();
+    report.zones_by_catalogue = std::move(notes.zones_by_catalogue);
     report.alignment = reader.has_truth() ? "true pose" : "ICP on the stable region";
     report.truth = reader.truth_origin();
-    for (const auto& method : plan.methods) {
-        auto scores = scores_of_method(*method, plan, table);
-        if (method->name() == baseline_method)
-            report.nothing = std::move(scores);
-        else
-            report.rows.push_back(std::move(scores));
-    }
+    for (const auto& method : plan.methods)
+        for (const double magnitude : plan.magnitudes_of(*method)) {
+            auto scores = scores_of_method(*method, magnitude, plan, table);
+            if (method->name() == baseline_method)
+                report.nothing = std::move(scores);
+            else
+                report.rows.push_back(std::move(scores));
+        }
     add_shares(report.rows);
-    report.failures = run.failures();
-    report.remarks = run.remarks();
+    report.failures = std::move(notes.failures);
+    report.remarks = std::move(notes.remarks);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
+}
+
+ExperimentReport run_experiment(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
+                                const ExperimentPlan& plan, const std::filesystem::path& cases,
+                                const std::function<void(const std::string&)>& progress) {
+    if (!cases.empty()) {
+        CaseStore store(cases);
+        return run_experiment(reader, catalogue, plan, store, RunWatch{.unit = progress});
+    }
+    CaseStore store;
+    return run_experiment(reader, catalogue, plan, store, RunWatch{.unit = progress});
 }
 
 ExperimentReport run_experiment(const preprocessing::Workspace& workspace, const facs::FacsCatalogue& catalogue,

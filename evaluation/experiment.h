@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/case_store.h"
 #include "evaluation/performance.h"
 #include "evaluation/plan.h"
 #include "evaluation/score.h"
@@ -14,7 +15,7 @@
 namespace mimik::evaluation {
 
 struct MethodScores {
-    std::string method;  ///< as tables print it
+    std::string method;  ///< as tables print it; "mean@0.8" at another magnitude than 1
     animation::SourceKind kind = animation::SourceKind::one_source;
     bool reference = false;                       ///< it looks at the truth
     bool bound = false;                           ///< the reference that shares of its kind are taken of
@@ -58,6 +59,18 @@ struct ExperimentReport {
 [[nodiscard]] ExperimentReport run_experiment(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
                                               const ExperimentPlan& plan, const std::filesystem::path& cases = {},
                                               const std::function<void(const std::string&)>& progress = {});
+
+/// Whom an experiment tells how far it is.
+struct RunWatch {
+    std::function<void(const std::string&)> unit = {};  ///< "12 bs003" is done; from any thread
+    /// All targets of an expression are done: its code, and the scores of what is stored so far.
+    std::function<void(const std::string&, const ScoreTable&)> expression = {};
+};
+
+/// The same with rows in a store. Units that it holds already, of a run of the same plan that was stopped, are not done
+/// again: the rows are those of one run from start to end, byte for byte.
+[[nodiscard]] ExperimentReport run_experiment(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
+                                              const ExperimentPlan& plan, CaseStore& store, const RunWatch& watch = {});
 
 /// The same for who wants no more than the report. @throws as plan_experiment() and run_experiment().
 [[nodiscard]] ExperimentReport run_experiment(const preprocessing::Workspace& workspace,

@@ -38,22 +38,57 @@ void ExperimentOptions::check() const {
             if (methods[k]->name() == methods[other]->name())
                 throw InputError(fmt::format("method '{}' is asked for twice; give it once", methods[k]->name()));
     if (max_sources < 0) throw InputError(fmt::format("max_sources is {}; give 0 (all) or more", max_sources));
+    if (magnitudes.empty()) throw InputError("magnitudes is empty; give one or more, such as 1");
+    for (std::size_t k = 0; k < magnitudes.size(); ++k) {
+        if (!(magnitudes[k] > 0) || magnitudes[k] > largest_magnitude)
+            throw InputError(
+                fmt::format("magnitudes has {}; give numbers above 0, up to {}", magnitudes[k], largest_magnitude));
+        if (std::count(magnitudes.begin(), magnitudes.begin() + static_cast<std::ptrdiff_t>(k), magnitudes[k]) > 0)
+            throw InputError(fmt::format("magnitudes has {} twice; its cases would count twice", magnitudes[k]));
+    }
 }
 
 std::size_t ExperimentPlan::units() const {
     std::size_t units = 0;
-    for (const auto& planned : expressions) units += planned.performances.size();
+    for (const auto& planned : expressions)
+        for (const auto& id : planned.performances) units += is_target(id.subject) ? 1 : 0;
     return units;
 }
 
-std::vector<std::size_t> ExperimentPlan::sources(std::size_t target, std::size_t participants) const {
+bool ExperimentPlan::is_target(const std::string& subject) const {
+    return targets.empty() || targets.contains(subject);
+}
+
+std::vector<std::size_t> ExperimentPlan::sources_of(std::size_t target,
+                                                    std::span<const database::ScanId> participants) const {
     std::vector<std::size_t> ring;
-    for (std::size_t step = 1; step < participants; ++step) {
+    for (std::size_t step = 1; step < participants.size(); ++step) {
         if (max_sources > 0 && ring.size() >= max_sources) break;
-        ring.push_back((target + step) % participants);
+        const auto next = (target + step) % participants.size();
+        if (sources.empty() || sources.contains(participants[next].subject)) ring.push_back(next);
     }
     return ring;
 }
+
+std::vector<double> ExperimentPlan::magnitudes_of(const animation::Method& method) const {
+    return method.needs_truth() || method.name() == baseline_method ? std::vector{1.0} : magnitudes;
+}
+
+namespace {
+
+/// @throws InputError for a subject that an experiment cannot show.
+std::set<std::string> known_subjects(const preprocessing::Workspace& workspace, const std::vector<std::string>& shown,
+                                     const std::vector<std::string>& asked, const char* what) {
+    for (const auto& subject : asked) {
+        if (std::find(shown.begin(), shown.end(), subject) != shown.end()) continue;
+        workspace.refuse_hidden(subject);
+        throw InputError(fmt::format("{}: no subject {} in {}; there are {}", what, base::in_quotes(subject),
+                                     workspace.root().string(), fmt::join(shown, ", ")));
+    }
+    return {asked.begin(), asked.end()};
+}
+
+}  // namespace
 
 ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const facs::FacsCatalogue& catalogue,
                                const ExperimentOptions& options, bool truth) {
@@ -65,6 +100,9 @@ ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const 
     if (options.zones == ZoneSource::truth && !truth)
         throw InputError(fmt::format("zones from the truth need one, and {} has none; give data or catalogue",
                                      workspace.database_root().string()));
+    plan.magnitudes = options.magnitudes;
+    plan.targets = known_subjects(workspace, plan.subjects, options.targets, "targets");
+    plan.sources = known_subjects(workspace, plan.subjects, options.sources, "sources");
     plan.zones = options.zones != ZoneSource::automatic ? options.zones : truth ? ZoneSource::truth : ZoneSource::data;
     const auto has = [&](const std::string& name) {
         return std::any_of(plan.methods.begin(), plan.methods.end(), [&](const auto& m) { return m->name() == name; });
@@ -104,17 +142,18 @@ ExperimentEstimate estimate(const ExperimentPlan& plan) {
     constexpr double subject_s = 0.06;    // read three times, measured, made ready as a target
     constexpr double transfer_s = 0.009;  // 7 ms by the default, 11 by thesis, 9 of a true field, whole face included
     ExperimentEstimate estimate;
-    for (const auto& planned : plan.expressions) {
-        const auto participants = planned.performances.size();
-        const auto sources = plan.sources(0, participants).size();
-        std::size_t per_target = 0;
-        for (const auto& method : plan.methods)
-            per_target += method->name() == baseline_method           ? 0
-                          : method->needs() == SourceKind::one_source ? sources
-                                                                      : 1;
-        estimate.transfers += participants * per_target;
-        estimate.core_seconds += static_cast<double>(participants) * subject_s;
-    }
+    for (const auto& planned : plan.expressions)
+        for (std::size_t t = 0; t < planned.performances.size(); ++t) {
+            estimate.core_seconds += subject_s / 2;  // as a source
+            if (!plan.is_target(planned.performances[t].subject)) continue;
+            estimate.core_seconds += subject_s / 2;
+            const auto sources = plan.sources_of(t, planned.performances).size();
+            for (const auto& method : plan.methods) {
+                if (method->name() == baseline_method) continue;
+                estimate.transfers +=
+                    (method->needs() == SourceKind::one_source ? sources : 1) * plan.magnitudes_of(*method).size();
+            }
+        }
     estimate.core_seconds += static_cast<double>(estimate.transfers) * transfer_s;
     return estimate;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +21,9 @@ namespace mimik::evaluation {
 /// A source, a target and one more, or there is no mean of the others.
 constexpr std::size_t fewest_subjects = 3;
 
+/// Beyond it no motion of a face is one.
+constexpr double largest_magnitude = 5.0;
+
 struct ExperimentOptions {
     std::vector<facs::Expression> expressions = thesis_expressions();
     std::vector<animation::MethodPointer> methods = {
@@ -27,6 +32,9 @@ struct ExperimentOptions {
     bool whole_face = true;  ///< score the face outside the zone, too
     int max_sources = 0;     ///< per target, the next ones in the list after it; 0 = all other subjects
     ZoneSource zones = ZoneSource::automatic;  ///< where methods are compared
+    std::vector<std::string> targets = {};     ///< who is animated; empty: all
+    std::vector<std::string> sources = {};     ///< whose performances are learned from; empty: all
+    std::vector<double> magnitudes = {1.0};    ///< each method at each of them; bounds and doing nothing at 1 alone
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
@@ -36,6 +44,9 @@ struct ExperimentOptions {
         visit("whole_face", self.whole_face);
         visit("max_sources", self.max_sources);
         visit("zones", self.zones);
+        visit("targets", self.targets);
+        visit("sources", self.sources);
+        visit("magnitudes", self.magnitudes);
     }
     void check() const;  ///< throws InputError
     /// AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 on the left.
@@ -58,16 +69,24 @@ struct ExperimentPlan {
     bool whole_face = true;
     std::size_t max_sources = 0;               ///< 0 = all
     ZoneSource zones = ZoneSource::catalogue;  ///< not automatic
+    std::set<std::string> targets = {};        ///< who is animated; empty: all
+    std::set<std::string> sources = {};        ///< whose performances are learned from; empty: all
+    std::vector<double> magnitudes = {1.0};
 
     [[nodiscard]] std::size_t units() const;
-    /// The participants whose performances are learned from for one target: the ring that begins after it.
-    [[nodiscard]] std::vector<std::size_t> sources(std::size_t target, std::size_t participants) const;
+    [[nodiscard]] bool is_target(const std::string& subject) const;
+    /// The participants whose performances are learned from for one target: the ring that begins after it, of those who
+    /// are sources.
+    [[nodiscard]] std::vector<std::size_t> sources_of(std::size_t target,
+                                                      std::span<const database::ScanId> participants) const;
+    /// At which a method is scored: bounds and doing nothing at 1 alone, the others at each.
+    [[nodiscard]] std::vector<double> magnitudes_of(const animation::Method& method) const;
 };
 
 /// An expression that fewer than 3 subjects show is left out and listed.
 /// @param truth  whether the database has one
 /// @throws InputError for bad options, zones or methods that need a truth where there is none, an expression that the
-/// catalogue lacks, or if none is left.
+/// catalogue lacks, a target or source that may not be shown or is none of the workspace, or if nothing is left.
 [[nodiscard]] ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace,
                                              const facs::FacsCatalogue& catalogue, const ExperimentOptions& options,
                                              bool truth);

@@ -120,9 +120,10 @@ ScoreTable scores_of(const std::function<void(const std::function<void(const Cas
         }
         // Rows that somebody sorted or filtered: another face's baseline is none.
         const bool own = nothing_of == std::pair(key.target, key.expression);
-        sums[key.method][key.expression].add(numbers, own ? nothing : CaseNumbers());
+        sums[variant_of(key)][key.expression].add(numbers, own ? nothing : CaseNumbers());
     };
     read([&](const CaseRow& row) {
+        if (row.estimator == run_estimator) return;
         if (any && row.key == key) return numbers.take(row);
         close_case();
         key = row.key;

@@ -55,7 +55,7 @@ struct Score {
     Faults faults = {};
 };
 
-/// By method, then by expression.
+/// By method (variant_of: "mean", "mean@0.8"), then by expression.
 using ScoreTable = std::map<std::string, std::map<std::string, Score>>;
 
 /// A pure function of rows: `read` hands them over in the order in which they were stored, those of one case one after

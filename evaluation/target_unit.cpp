@@ -33,7 +33,7 @@ public:
           failures_(failures),
           own_(reader.read(cast.participants[t])),
           prepared_(own_.neutral, own_.true_neutral ? &*own_.true_neutral : nullptr),
-          ring_(plan.sources(t, cast.participants.size())),
+          ring_(plan.sources_of(t, cast.participants)),
           scored_(scored_target(prepared_.surface(), own_.expressive.grid, own_.neutral_from_expressive,
                                 carry_zone(cast.zone, reader.workspace().average(), own_.neutral))),
           still_(DisplacementField::still(prepared_.surface().size())) {
@@ -78,10 +78,20 @@ private:
 
     void score_case(std::size_t m, const std::string& source, const std::vector<std::size_t>& from) {
         const auto& method = *plan_.methods[m];
-        const CaseKey key{source, own_.neutral.id.subject, cast_.expression.code(), method.name()};
+        CaseKey key{source, own_.neutral.id.subject, cast_.expression.code(), method.name()};
         const auto found = field_of(m, from, key);
         const bool made_by_method = found.field && method.name() != baseline_method && !method.needs_truth();
-        measure(key, {scored_, prepared_.surface(), found.field ? *found.field : still_, made_by_method}, found.reason);
+        for (const double magnitude : plan_.magnitudes_of(method)) {
+            key.magnitude = magnitude;
+            if (!found.field || magnitude == 1.0) {
+                measure(key, {scored_, prepared_.surface(), found.field ? *found.field : still_, made_by_method},
+                        found.reason);
+                continue;
+            }
+            auto scaled = *found.field;
+            for (auto& way_mm : scaled.mm) way_mm *= magnitude;
+            measure(key, {scored_, prepared_.surface(), scaled, made_by_method}, found.reason);
+        }
     }
 
     struct Found {

@@ -13,7 +13,7 @@ grep -qF '"zones": "truth"' scores.json
 grep -qF '"zones": "catalogue"' drawn.json
 expect_code 2 "--zones" "$mimik" evaluate work1 --expression 12 --zones guess
 claim "scores are written as text, table and JSON, and JSON is what is printed"
-# A comment line ends each unit of work, an expression of a target. No comma stands in a subject, an expression or a
+# A comment line ends each unit of work: the cast of an expression, an expression of a target. No comma stands in a subject, an expression or a
 # method: a row is split at every comma that is not within quotes.
 awk '
   { row = $0; gsub(/"([^"]|"")*"/, "", row); columns = gsub(/,/, "", row) }
@@ -21,7 +21,7 @@ awk '
   NR == 1 { wanted = columns; if ($0 !~ /(^|,)source,/ || $0 !~ /,target,/ || $0 !~ /,metric,/ || $0 !~ /,value(,|$)/) bad = 1 }
   NR > 1 && columns != wanted { print FILENAME ":" NR ": " $0; bad = 1 }
   NR > 1 && seen[$0]++ { print FILENAME ":" NR ": twice: " $0; bad = 1 }
-  END { exit bad || NR < 2 || units != 6 }' scores/cases.csv || { head -n 5 scores/cases.csv; fail "rows of cases.csv"; }
+  END { exit bad || NR < 2 || units != 8 }' scores/cases.csv || { head -n 5 scores/cases.csv; fail "rows of cases.csv"; }
 for pair in bs000,bs001 bs001,bs000 bs002,bs000; do grep -q "$pair" scores/cases.csv || fail "no row of $pair"; done
 claim "every case has its rows: a source on a target, a metric, a value"
 

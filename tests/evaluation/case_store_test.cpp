@@ -89,5 +89,42 @@ TEST(CaseStore, that_cannot_be_written_is_refused_by_its_name) {
                 HasSubstr("cases.csv: cannot be written"));
 }
 
+TEST(CaseStore, is_gone_on_with_after_its_last_whole_unit_wherever_it_was_cut) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "rows.part";
+    const auto fill = [&](CaseStore& store) {
+        for (const auto* unit : {"first", "second"})
+            if (!store.has(unit)) store.append(unit, std::vector{whole, odd});
+    };
+    {
+        auto store = CaseStore::gone_on_with(file);
+        EXPECT_EQ(store.units(), 0U);
+        fill(store);
+        EXPECT_THAT(rows_of(store), ElementsAre(whole, odd, whole, odd));
+    }
+    const auto text = base::read_text(file);
+    const auto first_line = text.find('\n') + 1;
+    const auto end_of_first = text.find('\n', text.find("# unit first")) + 1;
+    for (auto length = first_line; length <= text.size(); ++length) {
+        base::write_atomically(file, text.substr(0, length));
+        auto store = CaseStore::gone_on_with(file);
+        const std::size_t whole_units = length == text.size() ? 2 : length >= end_of_first ? 1 : 0;
+        ASSERT_EQ(store.units(), whole_units) << length;
+        fill(store);
+        store.finish();
+        ASSERT_EQ(base::read_text(file), text) << length;
+    }
+}
+
+TEST(CaseStore, that_is_none_is_not_gone_on_with) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "rows.part";
+    for (const auto* text : {"", "something else\n", "source,target"}) {
+        base::write_atomically(file, text);
+        EXPECT_THROW((void)CaseStore::gone_on_with(file), InputError);
+        EXPECT_EQ(base::read_text(file), text);
+    }
+}
+
 }  // namespace
 }  // namespace mimik::evaluation

@@ -1,6 +1,7 @@
 #include "evaluation/experiment.h"
 
 #include <atomic>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -257,6 +258,74 @@ TEST_F(Experiment, whose_truth_is_gone_is_refused_by_its_place_and_not_scored_in
     const auto missing = (folder.path() / "db" / "truth" / "truth.json").string();
     EXPECT_THAT(message_of<InputError>([&] { (void)run(workspace); }), HasSubstr(missing + ": is not there"));
     EXPECT_THAT(message_of<InputError>([&] { (void)run(workspace); }), HasSubstr("mimik preprocess DB -o"));
+}
+
+TEST_F(Experiment, a_run_that_was_cut_anywhere_goes_on_to_the_same_rows_and_the_same_report) {
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "rows.part";
+    auto options = smile_options();
+    options.methods = {animation::method_by_name("sparse-mean")};
+    options.expressions = test::expressions({"12", "17"});  // nobody shows 17
+    const PerformanceReader reader(*workspace_);
+    const auto plan = plan_experiment(*workspace_, facs::builtin_catalogue(), options, true);
+    const auto run_to_the_end = [&](std::size_t& units) {
+        auto store = CaseStore::gone_on_with(file);
+        units = 0;
+        return run_experiment(reader, facs::builtin_catalogue(), plan, store,
+                              {.unit = [&](const std::string&) { ++units; }});
+    };
+    std::size_t units = 0;
+    const auto report = run_to_the_end(units);
+    EXPECT_EQ(units, plan.units());
+    const auto text = base::read_text(file);
+    // After the first line, within the cast, within a unit, between units, within the last line, and not at all.
+    for (const auto length : {text.find('\n') + 1, text.find("# unit 12 cast") + 3, text.find("# unit 12 bs001") - 9,
+                              text.find('\n', text.find("# unit 12 bs000")) + 1, text.size() - 1, text.size()}) {
+        base::write_atomically(file, text.substr(0, length));
+        const auto again = run_to_the_end(units);
+        EXPECT_EQ(units, plan.units()) << length;
+        EXPECT_EQ(base::read_text(file), text) << length;
+        EXPECT_EQ(again.failures, report.failures);
+        EXPECT_EQ(again.remarks, report.remarks);
+        EXPECT_EQ(row(again, "sparse-mean").per_expression.at("12").explained,
+                  row(report, "sparse-mean").per_expression.at("12").explained);
+    }
+}
+
+TEST_F(Experiment, targets_and_sources_are_those_that_were_asked_for) {
+    auto options = smile_options();
+    options.methods = {animation::method_by_name("sparse")};
+    options.targets = {"bs000", "bs001"};
+    options.sources = {"bs001", "bs002"};
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "cases.csv";
+    const PerformanceReader reader(*workspace_);
+    const auto plan = plan_experiment(*workspace_, facs::builtin_catalogue(), options, true);
+    EXPECT_EQ(plan.units(), 2U);
+    (void)run_experiment(reader, facs::builtin_catalogue(), plan, file);
+    std::set<std::string> pairs;
+    (void)read_case_rows(file, [&](const CaseRow& row) {
+        if (row.key.method == "sparse") pairs.insert(row.key.source + ">" + row.key.target);
+    });
+    EXPECT_THAT(pairs, ElementsAre("bs001>bs000", "bs002>bs000", "bs002>bs001"));
+    options.targets = {"bs009"};
+    EXPECT_THAT(message_of<InputError>([&] { (void)run(*workspace_, options); }),
+                HasSubstr("targets: no subject 'bs009'"));
+}
+
+TEST_F(Experiment, a_method_at_two_magnitudes_is_two_rows_and_at_a_half_it_moves_half_as_far) {
+    auto options = smile_options();
+    options.methods = {animation::method_by_name("sparse-mean")};
+    options.magnitudes = {0.5, 1.0};
+    const auto report = run(*workspace_, options);
+    const auto& half = row(report, "sparse-mean@0.5").per_expression.at("12");
+    const auto& whole = row(report, "sparse-mean").per_expression.at("12");
+    EXPECT_DOUBLE_EQ(*half.faults.peak_ratio, *whole.faults.peak_ratio / 2);
+    EXPECT_EQ(report.rows.size(), 4U);  // bounds stand once
+    EXPECT_DOUBLE_EQ(*row(report, "sparse-mean@0.5").share,
+                     *half.explained / *row(report, "true field, mean").explained);
+    options.magnitudes = {1.0, 1.0};
+    EXPECT_THAT(message_of<InputError>([&] { (void)run(*workspace_, options); }), HasSubstr("has 1 twice"));
 }
 
 }  // namespace
