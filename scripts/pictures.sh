@@ -177,6 +177,22 @@ awk -F, '
     print "<text x=\"465\" y=\"282\" text-anchor=\"middle\" fill=\"#333333\">explained fraction of each case (0: doing nothing, 1: perfect)</text>"
     print "</svg>" }' "$dots" >made/evaluation_rows.svg
 
+# Five people as sources and targets, and what each pair weighs in a sample that drew them 2, 0, 1, 1 and 1 times.
+awk 'BEGIN { n = split("A B C D E", who, " "); split("2 0 1 1 1", drawn, " ")
+  split("#f2f2f2 #9ecae1 #4292c6 #08519c", colour, " ")
+  print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 470 350\" width=\"470\" height=\"350\" font-family=\"DejaVu Sans, Arial, sans-serif\" font-size=\"14\" text-anchor=\"middle\">"
+  print "<rect width=\"470\" height=\"350\" fill=\"#ffffff\"/>"
+  print "<text x=\"285\" y=\"22\" fill=\"#333333\">target, and how often it was drawn</text>"
+  print "<text transform=\"translate(24 200) rotate(-90)\" fill=\"#333333\">source</text>"
+  for (i = 1; i <= n; ++i) {
+    printf "<text x=\"%d\" y=\"48\" fill=\"#111111\">%s: %d</text>\n<text x=\"76\" y=\"%d\" fill=\"#111111\">%s: %d</text>\n", 75 + 70 * i, who[i], drawn[i], 40 + 53 * i, who[i], drawn[i]
+    for (j = 1; j <= n; ++j) {
+      w = drawn[i] * drawn[j]
+      if (i == j) printf "<rect x=\"%d\" y=\"%d\" width=\"66\" height=\"49\" fill=\"none\" stroke=\"#dddddd\"/>\n", 42 + 70 * j, 10 + 53 * i
+      else printf "<rect x=\"%d\" y=\"%d\" width=\"66\" height=\"49\" fill=\"%s\"/>\n<text x=\"%d\" y=\"%d\" fill=\"%s\">%d</text>\n", 42 + 70 * j, 10 + 53 * i, colour[w + 1], 75 + 70 * j, 40 + 53 * i, (w > 1 ? "#ffffff" : "#111111"), w } }
+  print "<text x=\"285\" y=\"343\" fill=\"#333333\">what a pair weighs: both counts multiplied</text>"
+  print "</svg>" }' >made/statistics.svg
+
 for picture in made/*.png; do pngquant --force --ext .png --nofs --speed 1 256 "$picture"; done
 cd - >/dev/null
 for picture in docs/images/*; do

@@ -9,7 +9,7 @@ packages=(
   # tools
   build-essential cmake ninja-build pkg-config git ca-certificates
   # geometry and numbers
-  libeigen3-dev libtbb-dev libcgal-dev libgmp-dev libnanoflann-dev libembree-dev libhwy-dev
+  libeigen3-dev libtbb-dev libboost-dev libcgal-dev libgmp-dev libnanoflann-dev libembree-dev libhwy-dev
   # files, options, the scan index
   libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libpng-dev libjpeg62-turbo-dev zlib1g-dev
   libpugixml-dev liblzf-dev libsqlite3-dev
@@ -17,6 +17,8 @@ packages=(
   libvtk9-dev libgl-dev libegl-dev libx11-dev libegl1 libegl-mesa0 libgl1-mesa-dri xvfb fonts-dejavu-core
   # tests
   libgtest-dev libgmock-dev
+  # the peers of our statistics (tests/statistics/peers.py): 28 MB to fetch
+  python3-scipy python3-statsmodels
 )
 for option in "$@"; do
   case "$option" in

@@ -1,10 +1,12 @@
 #include "geometry/topology.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "geometry/disjoint_sets.h"
 #include "geometry/weld.h"
 
 namespace mimik::geometry {
@@ -29,6 +31,28 @@ TEST(ConnectedParts, triangles_that_share_a_vertex_or_a_place_are_one_part) {
 TEST(ConnectedParts, of_no_triangles_there_are_none) {
     const std::vector<Point> vertices = {{0, 0, 0}, {1, 0, 0}};
     for (const auto part : connected_parts(vertices, {})) EXPECT_EQ(part, not_welded);
+}
+
+TEST(DisjointSets, the_lowest_item_stands_for_a_set_in_whatever_order_it_was_joined) {
+    DisjointSets sets(6);
+    sets.join(5, 4);
+    sets.join(4, 2);
+    sets.join(3, 1);
+    for (const std::uint32_t item : {2U, 4U, 5U}) EXPECT_EQ(sets.root(item), 2U);
+    EXPECT_EQ(sets.root(3), 1U);
+    EXPECT_EQ(sets.root(0), 0U);
+    sets.join(5, 3);
+    for (std::uint32_t item = 1; item < 6; ++item) EXPECT_EQ(sets.root(item), 1U);
+}
+
+TEST(BorderEdges, are_those_of_one_face_in_ascending_order) {
+    Faces faces;
+    faces.add(std::vector<std::uint32_t>{0, 1, 2, 3});
+    faces.add(std::vector<std::uint32_t>{1, 4, 2});
+    const std::vector<Edge> expected = {{0, 1}, {0, 3}, {1, 4}, {2, 3}, {2, 4}};
+    EXPECT_EQ(border_edges(faces), expected);
+    EXPECT_EQ(border_edges(triangulate(faces)), expected);  // a diagonal has two triangles
+    EXPECT_TRUE(border_edges(Faces{}).empty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "geometry/statistics.h"
+#include "base/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "base/errors.h"
 
-namespace mimik::geometry {
+namespace mimik::base {
 
 double median(std::vector<double> values) {
     if (values.empty()) throw InputError("a median of no value; give one or more");
@@ -38,4 +38,4 @@ double quantile(std::vector<double> values, double q) {
     return *at + share * (*std::min_element(at + 1, values.end()) - *at);
 }
 
-}  // namespace mimik::geometry
+}  // namespace mimik::base
