@@ -25,7 +25,8 @@ struct TemplatePlace {
 struct TemplatePlaces {
     std::vector<TemplatePlace> of_vertices;  ///< of those that move
     std::vector<preprocessing::LipSide> lip_sides;
-    InnerParts inner;  ///< of somebody's mesh; a scan has none
+    InnerParts inner;            ///< of somebody's mesh; a scan has none
+    std::vector<Point> bent_mm;  ///< the template on the target
 };
 
 /// 1 on the template, 0 beyond the fade, smooth between.
@@ -123,13 +124,15 @@ TemplatePlaces locate(const PreparedTarget& target, const KeptRegistrations& reg
     if (!target.face()) put_on_own_lips(places, target, index, hits, face_template);
     if (!target.face()) places.inner = inner_parts_of(target, index, places.of_vertices, hits);
     std::erase_if(places.of_vertices, [](const TemplatePlace& place) { return place.weights.isZero(0); });
+    places.bent_mm.assign(index.vertices_mm().begin(), index.vertices_mm().end());
     return places;
 }
 
 /// Kept with the target, which outlives what is made of it here.
-const TemplatePlaces& places_on(const PreparedTarget& target, const modeling::TemplateMotion& dense) {
-    const auto kept = target.kept(dense.registrations, [&]() -> std::shared_ptr<const void> {
-        return std::make_shared<const TemplatePlaces>(locate(target, *dense.registrations));
+const TemplatePlaces& places_on(const PreparedTarget& target,
+                                const std::shared_ptr<const KeptRegistrations>& registrations) {
+    const auto kept = target.kept(registrations, [&]() -> std::shared_ptr<const void> {
+        return std::make_shared<const TemplatePlaces>(locate(target, *registrations));
     });
     return *static_cast<const TemplatePlaces*>(kept.get());
 }
@@ -164,8 +167,13 @@ void move_inner_parts(geometry::DisplacementField& field, const PreparedTarget& 
 
 }  // namespace
 
+std::span<const Point> template_on(const PreparedTarget& target,
+                                   const std::shared_ptr<const KeptRegistrations>& registrations) {
+    return places_on(target, registrations).bent_mm;
+}
+
 std::vector<preprocessing::LipSide> lip_sides(const PreparedTarget& target, const modeling::TemplateMotion& dense) {
-    return places_on(target, dense).lip_sides;
+    return places_on(target, dense.registrations).lip_sides;
 }
 
 geometry::DisplacementField dense_field(const PreparedTarget& target, const modeling::TemplateMotion& dense) {
@@ -173,7 +181,7 @@ geometry::DisplacementField dense_field(const PreparedTarget& target, const mode
         target.average_from_target(Normalisation::similarity).linear().inverse();
     auto field = geometry::DisplacementField::still(target.surface().size());
     field.answered = target.surface().present;
-    const auto& places = places_on(target, dense);
+    const auto& places = places_on(target, dense.registrations);
     for (const auto& place : places.of_vertices) {
         Vector motion = Vector::Zero();
         for (std::size_t c = 0; c < 3; ++c)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "animation/prepared_target.h"
@@ -18,6 +20,10 @@ constexpr double rim_fade_mm = 30.0;
 /// @throws InputError, NumericalError if the template does not fit on the target.
 [[nodiscard]] geometry::DisplacementField dense_field(const PreparedTarget& target,
                                                       const modeling::TemplateMotion& dense);
+
+/// The template that was bent on to the target, average frame (similarity); kept with it. @throws as dense_field.
+[[nodiscard]] std::span<const geometry::Point> template_on(
+    const PreparedTarget& target, const std::shared_ptr<const preprocessing::KeptRegistrations>& registrations);
 
 /// Per vertex of the target, on which side of its lips it lies, by the template that was bent on to it.
 [[nodiscard]] std::vector<preprocessing::LipSide> lip_sides(const PreparedTarget& target,

@@ -50,6 +50,15 @@ enum class SourceKind {
 };
 [[nodiscard]] const char* to_string(SourceKind kind);  ///< "none", "one source", "mean"
 
+/// Why somebody takes a method: what lists of methods are ordered by.
+enum class MethodGroup {
+    usual,      ///< those to animate faces with
+    thesis,     ///< the thesis, and single steps from it to the usual ones
+    published,  ///< other authors' methods
+    simple,     ///< what every method has to beat
+    bound       ///< looks at the truth of a synthetic database
+};
+
 /// What everybody who learns an expression shares. References.
 struct LearningTask {
     const facs::Expression& expression;
@@ -65,6 +74,9 @@ public:
     virtual ~Method() = default;
     [[nodiscard]] virtual std::string name() const = 0;                 ///< as it is typed: letters, digits, '-'
     [[nodiscard]] virtual std::string title() const { return name(); }  ///< as tables print it
+    /// What it does, in one sentence, for those who choose one.
+    [[nodiscard]] virtual std::string summary() const { return title(); }
+    [[nodiscard]] virtual MethodGroup group() const { return MethodGroup::usual; }
     [[nodiscard]] virtual SourceKind needs() const = 0;
     /// Whether it looks at the truth of a synthetic database: a bound for the others, no method for real scans.
     [[nodiscard]] virtual bool needs_truth() const { return false; }

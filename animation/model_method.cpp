@@ -79,6 +79,15 @@ ModelMethod::ModelMethod(Setting setting) : setting_(std::move(setting)) {
             fmt::format("method '{}': a mean needs its points on the average face (place_on_average)", setting_.name));
 }
 
+ModelMethod::Setting ModelMethod::thesis(std::string name, std::string summary) {
+    return {.name = std::move(name),
+            .needs = SourceKind::one_source,
+            .model = modeling::ModelOptions::thesis(),
+            .animation = AnimationOptions::thesis(),
+            .summary = std::move(summary),
+            .group = MethodGroup::thesis};
+}
+
 std::string ModelMethod::lessons_key() const { return "model" + base::field_text(setting_.model); }
 
 std::unique_ptr<const Learner> ModelMethod::learner(const LearningTask& task) const {

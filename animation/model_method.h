@@ -17,11 +17,19 @@ public:
         SourceKind needs = SourceKind::one_source;
         modeling::ModelOptions model;
         AnimationOptions animation;
+        std::string summary = {};  ///< one sentence; empty: the name
+        MethodGroup group = MethodGroup::usual;
     };
+    /// The thesis as printed, from one source: what its variants change.
+    [[nodiscard]] static Setting thesis(std::string name, std::string summary);
     /// @throws InputError for bad options, or a mean whose points do not stand on the average face.
     explicit ModelMethod(Setting setting);
 
     [[nodiscard]] std::string name() const override { return setting_.name; }
+    [[nodiscard]] std::string summary() const override {
+        return setting_.summary.empty() ? setting_.name : setting_.summary;
+    }
+    [[nodiscard]] MethodGroup group() const override { return setting_.group; }
     [[nodiscard]] SourceKind needs() const override { return setting_.needs; }
     [[nodiscard]] std::string lessons_key() const override;
     [[nodiscard]] std::unique_ptr<const Learner> learner(const LearningTask& task) const override;

@@ -115,6 +115,7 @@ PreparedTarget::PreparedTarget(PreparedTarget&&) noexcept = default;
 const std::string& PreparedTarget::name() const { return parts_->name; }
 const preprocessing::Face* PreparedTarget::face() const { return parts_->face ? &*parts_->face : nullptr; }
 const geometry::FaceSurface& PreparedTarget::surface() const { return parts_->surface; }
+const database::TrueScan* PreparedTarget::truth() const { return parts_->truth; }
 bool PreparedTarget::has_truth() const { return parts_->truth != nullptr; }
 
 const geometry::Transform& PreparedTarget::average_from_target(Normalisation normalisation) const {

@@ -54,6 +54,7 @@ public:
     [[nodiscard]] const geometry::Transform& average_from_target(modeling::Normalisation normalisation) const;
     [[nodiscard]] const NormalisedTarget& normalised(modeling::Normalisation normalisation) const;
     [[nodiscard]] bool has_truth() const;
+    [[nodiscard]] const database::TrueScan* truth() const;  ///< of this scan; null: it is not known
     /// @throws InputError without a truth.
     [[nodiscard]] const MaterialPoints& material_points() const;
     /// What somebody needs of this face again and again: made when `owner` first asks, then kept with the face.

@@ -15,6 +15,11 @@ public:
 
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] std::string title() const override { return title_; }
+    [[nodiscard]] std::string summary() const override {
+        return needs_ == SourceKind::one_source ? "The source's true motion in true correspondence"
+                                                : "The mean of the others' true motions in true correspondence";
+    }
+    [[nodiscard]] MethodGroup group() const override { return MethodGroup::bound; }
     [[nodiscard]] SourceKind needs() const override { return needs_; }
     [[nodiscard]] bool needs_truth() const override { return true; }
     [[nodiscard]] std::string lessons_key() const override { return "true field"; }

@@ -118,7 +118,8 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     auto& options = arguments->options;
     command->add_option("WORK", arguments->workspace, "Folder made by 'mimik preprocess'")->required();
     command
-        ->add_option("--method", arguments->methods, "Methods to score (mean is --source mean of the other commands)")
+        ->add_option("--method", arguments->methods,
+                     "Methods to score; 'mimik help methods' lists them (mean is --source mean of the other commands)")
         ->delimiter(',')
         ->check(CLI::IsMember(method_names()))
         ->capture_default_str();

@@ -2,9 +2,12 @@
 #include <memory>
 #include <string>
 
+#include <unistd.h>
+
 #include "base/errors.h"
 #include "cli/command.h"
 #include "cli/help_pages.h"
+#include "cli/method_options.h"
 #include "cli/option_faults.h"
 #include "cli/terminal.h"
 
@@ -16,7 +19,8 @@ void add_help_command(CLI::App& app, int& exit_code) {
     };
     const auto arguments = std::make_shared<Arguments>();
     auto* command = app.add_subcommand("help", "Say what a command does; the manual, the words for a shell");
-    command->add_option("COMMAND", arguments->command, "Without it, the list of all commands");
+    command->add_option("COMMAND", arguments->command,
+                        "Without it, the list of all commands; methods: all of --method");
     command->add_option("--format", arguments->format, "text, or man, bash, zsh: of the program as a whole")
         ->check(CLI::IsMember(std::vector<std::string>{"text", "man", "bash", "zsh"}))
         ->capture_default_str();
@@ -33,6 +37,10 @@ void add_help_command(CLI::App& app, int& exit_code) {
             return;
         }
         if (name.empty()) return print_help(app);
+        if (name == "methods") {
+            raw_output() << methods_text(shows_colours(STDOUT_FILENO));
+            return;
+        }
         for (const auto* one : app.get_subcommands({}))
             if (one->get_name() == name) return print_help(*one);
         throw InputError(unknown_command(app, name));

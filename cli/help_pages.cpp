@@ -28,6 +28,8 @@ std::vector<std::string> choices_of(const std::string& type) {
 
 std::string value_word(const CLI::Option& option, const std::vector<std::string>& choices) {
     if (option.get_items_expected_max() == 0) return {};  // a flag
+    constexpr std::size_t most_shown = 8;
+    if (choices.size() > most_shown) return "NAME";
     if (!choices.empty()) return fmt::format("{}", fmt::join(choices, "|"));
     const auto type = option.get_type_name();
     auto word = type.starts_with("FLOAT") ? "X" : type.starts_with("INT") || type.starts_with("UINT") ? "N" : "TEXT";

@@ -10,7 +10,7 @@ namespace mimik::cli {
 /// What is said of an option or an argument, wherever it is said: help, manual page, completion, errors.
 struct OptionPage {
     std::vector<std::string> names;    ///< "-o", "--output"; of an argument its one name, "WORK"
-    std::string value;                 ///< "TEXT", "N", "X" or the choices "sum|parallel"; empty: a flag
+    std::string value;                 ///< "TEXT", "N", "X" the choices "sum|parallel", of many NAME; empty: a flag
     std::vector<std::string> choices;  ///< empty: anything
     std::string help, fallback, group;
     bool required = false, repeats = false;

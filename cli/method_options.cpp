@@ -1,5 +1,6 @@
 #include "cli/method_options.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
@@ -8,7 +9,9 @@
 
 #include "animation/model_method.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "cli/command.h"
+#include "cli/nearest.h"
 #include "evaluation/score.h"
 #include "modeling/average_fingerprint.h"
 
@@ -49,6 +52,52 @@ std::vector<std::string> method_names() {
     return names;
 }
 
+std::string fault_of_method(const std::string& name, const std::vector<std::string>& choices) {
+    const auto known = method_names();
+    if (std::find(known.begin(), known.end(), name) == known.end())
+        return fmt::format("--method is {}; give one of those that 'mimik help methods' lists{}", base::in_quotes(name),
+                           did_you_mean(name, choices));
+    if (animation::method_by_name(name)->needs() == animation::SourceKind::all_but_target)
+        return fmt::format(
+            "--method is '{}', which is a mean and takes no source of yours; give its method for one "
+            "source and --source mean, or score it by 'mimik evaluate'",
+            name);
+    return fmt::format(
+        "--method is '{}', which makes no model that could be kept; 'mimik evaluate' and 'mimik panels' "
+        "take it, and here one of those with a * in 'mimik help methods'",
+        name);
+}
+
+std::string methods_text(bool colours) {
+    using animation::MethodGroup;
+    constexpr std::size_t widest_name = 29;
+    const auto model_names = model_method_names();
+    const auto methods = animation::known_methods();
+    std::string text =
+        "Methods: how an expression gets on to another face. 'mimik evaluate' and 'mimik panels' take each,\n"
+        "'mimik model' and 'mimik animate' those with a *. Those that learn from all but the target are marked "
+        "'mean'.\n";
+    for (const auto& [group, title] : {std::pair(MethodGroup::usual, "To animate faces with"),
+                                       std::pair(MethodGroup::thesis, "The thesis, and steps from it"),
+                                       std::pair(MethodGroup::published, "Other published methods"),
+                                       std::pair(MethodGroup::simple, "What every method has to beat"),
+                                       std::pair(MethodGroup::bound, "Bounds: they look at a synthetic truth")}) {
+        text += colours ? fmt::format("\n\033[1m{}:\033[0m\n", title) : fmt::format("\n{}:\n", title);
+        for (const auto& method : methods) {
+            const auto name = method->name();
+            if (method->group() != group || name == evaluation::baseline_method) continue;
+            const bool model = std::find(model_names.begin(), model_names.end(), name) != model_names.end();
+            const bool mean = method->needs() == animation::SourceKind::all_but_target;
+            text += fmt::format("  {:<{}} {:<5}{}\n", name, widest_name,
+                                model  ? "*"
+                                : mean ? "mean"
+                                       : "",
+                                method->summary());
+        }
+    }
+    return text;
+}
+
 bool MethodArguments::has_control_points() const {
     const auto method = animation::method_by_name(name);
     if (dynamic_cast<const animation::ModelMethod*>(method.get())) return true;
@@ -60,7 +109,8 @@ bool MethodArguments::has_control_points() const {
 void MethodArguments::add_to(CLI::App& command, Methods methods) {
     command
         .add_option("--method", name,
-                    "default (what measured best), sparse (control points alone), thesis (as printed), or another")
+                    "default (what measured best), sparse (control points alone), thesis (as printed), or another of "
+                    "'mimik help methods'")
         ->check(CLI::IsMember(methods == Methods::all ? method_names() : model_method_names()))
         ->capture_default_str();
     command.add_option("--catalogue", catalogue_file, "Another FACS catalogue (TOML) than the built-in one");

@@ -15,6 +15,12 @@ namespace mimik::cli {
 /// The methods that a user may ask for.
 [[nodiscard]] std::vector<std::string> method_names();
 
+/// What is wrong with a --method that is none of `choices`: it may be one that other commands take.
+[[nodiscard]] std::string fault_of_method(const std::string& name, const std::vector<std::string>& choices);
+
+/// All of them with what they do, in groups: 'mimik help methods'.
+[[nodiscard]] std::string methods_text(bool colours);
+
 /// Of --kernel, which the parser has found to be r or r2logr.
 [[nodiscard]] geometry::SplineKernel kernel_by_name(const std::string& name);
 

@@ -11,6 +11,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "cli/help_pages.h"
+#include "cli/method_options.h"
 #include "cli/nearest.h"
 #include "cli/terminal.h"
 
@@ -49,10 +50,10 @@ std::string strict_whole(const std::string& option, bool natural, std::string& t
 }
 
 std::string strict_choice(const std::string& option, const std::vector<std::string>& choices, const std::string& text) {
-    if (std::find(choices.begin(), choices.end(), text) == choices.end())
-        throw InputError(fmt::format("{} is {}; give one of {}{}", option, base::in_quotes(text),
-                                     fmt::join(choices, ", "), did_you_mean(text, choices)));
-    return {};
+    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return {};
+    if (option == "--method") throw InputError(fault_of_method(text, choices));
+    throw InputError(fmt::format("{} is {}; give one of {}{}", option, base::in_quotes(text), fmt::join(choices, ", "),
+                                 did_you_mean(text, choices)));
 }
 
 /// A name of a file or folder to be written. What is read may be called as it is.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string_view>
 
@@ -11,6 +12,7 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "facs/expression_zone.h"
 #include "facs/face_regions.h"
 #include "geometry/face_axes.h"
 #include "geometry/landmark_spline.h"
@@ -54,6 +56,11 @@ ModelOptions ModelOptions::thesis() {
 void ModelOptions::check() const {
     if (!(smoothing >= 0))
         throw InputError(fmt::format("smoothing is {}; give 0 (pass through every landmark) or more", smoothing));
+    if (spread_points < 0) throw InputError(fmt::format("spread_points is {}; give 0 (none) or more", spread_points));
+    if (spread_points > 0 && (correspondence != Correspondence::dense || !place_on_average))
+        throw InputError(
+            "spread_points move as a template does, so they need the correspondence 'dense' and "
+            "place_on_average");
     if (correspondence == Correspondence::dense && normalisation == Normalisation::affine)
         throw InputError("a dense model needs the frame 'similarity'; give that, or the correspondence 'sparse'");
 }
@@ -113,23 +120,6 @@ bool crosses_border(const facs::SidedUnit& sided, const Landmarks& landmarks) {
     });
 }
 
-/// Of a scan that shows both sides, an expression of one side takes that alone: smooth over 20 mm about the mid-line.
-void keep_side(TemplateMotion& dense, const facs::Expression& expression) {
-    constexpr double blend_mm = 20.0;
-    const auto units = expression.units();
-    if (units.empty()) return;
-    const auto side = units.front().side;
-    for (const auto& unit : units)
-        if (unit.side != side) return;
-    if (side == facs::Side::both) return;
-    const double sign = side == facs::Side::left ? 1.0 : -1.0;
-    const auto& rest_mm = dense.face_template().surface.vertices_mm;
-    for (std::size_t v = 0; v < rest_mm.size(); ++v) {
-        const double t = std::clamp(0.5 + sign * rest_mm[v].x() / blend_mm, 0.0, 1.0);
-        dense.motion_mm[v] *= t * t * (3.0 - 2.0 * t);
-    }
-}
-
 }  // namespace
 
 ExpressionGauge::ExpressionGauge(const facs::FacsCatalogue& catalogue, const facs::Expression& expression,
@@ -158,7 +148,95 @@ ExpressionGauge::ExpressionGauge(const facs::FacsCatalogue& catalogue, const fac
     }
     if (!options_.place_on_average) return;
     const geometry::SurfaceIndex surface(average.grid.vertices_mm, geometry::triangles(average.grid));
-    on_average_ = place_controls(catalogue, expression, average.landmarks, surface, placed_kinds(options_));
+    on_average_ = place(average.landmarks, surface);
+    if (options_.spread_points > 0) spread_over_zone();
+}
+
+ExpressionGauge::Placed ExpressionGauge::place(const Landmarks& landmarks,
+                                               const geometry::SurfaceIndex& surface) const {
+    const auto others = [&](auto&& wanted_unit) {
+        std::vector<facs::UnitOnSide> units;
+        for (const auto& unit : catalogue_.action_units())
+            if (wanted_unit(unit)) units.push_back({unit.number, facs::Side::both, false});
+        return units;
+    };
+    Placed placed;
+    if (options_.other_points == OtherPoints::followed) {
+        auto units = others([&](const facs::ActionUnit& unit) {
+            return unit.lower_face ? begun_.moves_lower_face : begun_.moves_upper_face;
+        });
+        static_cast<PlacedControls&>(placed) = place_controls(catalogue_, facs::Expression::of_units(std::move(units)),
+                                                              landmarks, surface, placed_kinds(options_));
+        return placed;
+    }
+    static_cast<PlacedControls&>(placed) =
+        place_controls(catalogue_, expression_, landmarks, surface, placed_kinds(options_));
+    if (options_.other_points == OtherPoints::none) return placed;
+    // A point that stands where one of the expression's own does would hold that still, too.
+    const double apart_mm = catalogue_.sampling().min_separation * geometry::outer_eye_distance_mm(landmarks);
+    const auto all = facs::Expression::of_units(others([](const auto&) { return true; }));
+    for (auto& control :
+         place_controls(catalogue_, all, landmarks, surface, {.coverage = false, .anchors = false}).controls) {
+        const bool near = std::any_of(placed.controls.begin(), placed.controls.end(), [&](const ControlPoint& own) {
+            return (own.position_mm - control.position_mm).norm() < apart_mm;
+        });
+        if (near || !wanted(control.kind, options_)) continue;
+        control.name = "still " + control.name;
+        control.kind = facs::ControlKind::anchor;
+        placed.still.push_back(std::move(control));
+    }
+    return placed;
+}
+
+/// The farthest vertex from all that were chosen comes next, with its mirror image where that lies in the zone, too.
+void ExpressionGauge::spread_over_zone() {
+    const auto& face_template = registrations_->face_template();
+    const auto& vertices = face_template.surface.vertices_mm;
+    const facs::ExpressionZone zone(catalogue_, expression_, average_.landmarks);
+    std::vector<double> off_mm(vertices.size(), -1.0);  // from the nearest chosen one; -1: not in the zone, or chosen
+    Point middle = Point::Zero();
+    std::size_t inside = 0;
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        if (zone.distance(vertices[v]) > 0) continue;
+        off_mm[v] = std::numeric_limits<double>::max();
+        middle += vertices[v];
+        ++inside;
+    }
+    const auto wanted_points = std::min(inside, static_cast<std::size_t>(options_.spread_points));
+    const auto choose = [&](std::uint32_t chosen) {
+        spread_.push_back(chosen);
+        for (std::size_t v = 0; v < vertices.size(); ++v)
+            if (off_mm[v] >= 0) off_mm[v] = std::min(off_mm[v], (vertices[v] - vertices[chosen]).norm());
+        off_mm[chosen] = -1;
+    };
+    const auto next = [&] {
+        if (!spread_.empty())
+            return static_cast<std::uint32_t>(std::max_element(off_mm.begin(), off_mm.end()) - off_mm.begin());
+        middle /= static_cast<double>(inside);
+        std::uint32_t nearest = 0;
+        double least = std::numeric_limits<double>::max();
+        for (std::uint32_t v = 0; v < vertices.size(); ++v)
+            if (const double d = (vertices[v] - middle).norm(); off_mm[v] >= 0 && d < least) {
+                least = d;
+                nearest = v;
+            }
+        return nearest;
+    };
+    while (spread_.size() < wanted_points) {
+        const auto chosen = next();
+        choose(chosen);
+        const auto mirrored = face_template.mirror[chosen];
+        if (spread_.size() < wanted_points && off_mm[mirrored] > 0) choose(mirrored);
+    }
+}
+
+void ExpressionGauge::keep_spread_points(ExpressionModel& model) const {
+    const auto& vertices = registrations_->face_template().surface.vertices_mm;
+    std::erase_if(model.points, [](const ModelPoint& point) { return point.kind != facs::ControlKind::anchor; });
+    for (const auto v : spread_)
+        model.points.push_back(
+            {fmt::format("spread_{}", v), facs::ControlKind::coverage, vertices[v], model.dense->motion_mm[v], 0.0});
+    model.dense.reset();
 }
 
 ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expressive,
@@ -178,7 +256,7 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     NormalisedSurface expressive_surface(expressive.grid, to_average_too, geometry::BridgedVertices::keep);
 
     // Where the points stand on the model's own face, and where on this source's neutral face.
-    PlacedControls placed;
+    Placed placed;
     std::vector<Point> controls_on_source, anchors_on_source;
     if (options.place_on_average) {
         placed = on_average_;
@@ -191,8 +269,7 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
             anchors_on_source.push_back(
                 neutral_surface.nearest(source_from_average(anchor.position_mm), options.snap_to_vertices));
     } else {
-        placed =
-            place_controls(catalogue_, expression_, neutral_marks, neutral_surface.surface(), placed_kinds(options));
+        placed = place(neutral_marks, neutral_surface.surface());
         model.landmarks = neutral_marks;
         for (auto& control : placed.controls) {
             control.position_mm = neutral_surface.nearest(control.position_mm, options.snap_to_vertices);
@@ -212,14 +289,14 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     for (const auto& name : pairs.only_in_to())
         model.left_out.push_back(
             fmt::format("{}: landmark '{}' is not on {}", expressive.id.name(), name, neutral.id.name()));
-    for (std::size_t k = 0; k < placed.anchors.size(); ++k)
+    for (std::size_t k = 0; options.anchors_in_both_maps && k < placed.anchors.size(); ++k)
         pairs.add(placed.anchors[k].name, anchors_on_source[k], anchors_on_source[k]);
     const auto expressive_from_neutral = pairs.fit(spline);
 
     // Exactly so many: an experiment holds the models of all its sources.
     const auto taken = std::count_if(placed.controls.begin(), placed.controls.end(),
                                      [&](const ControlPoint& control) { return wanted(control.kind, options); });
-    model.points.reserve(static_cast<std::size_t>(taken) + placed.anchors.size());
+    model.points.reserve(static_cast<std::size_t>(taken) + placed.anchors.size() + placed.still.size());
     for (std::size_t k = 0; k < placed.controls.size(); ++k) {
         const auto& control = placed.controls[k];
         if (!wanted(control.kind, options)) continue;
@@ -231,11 +308,13 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
             followed->push_back({control.name, control.kind, to_average.inverse() * controls_on_source[k],
                                  to_average_too.inverse() * found});
     }
-    for (const auto& anchor : placed.anchors)
-        model.points.push_back({anchor.name, facs::ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
+    for (const auto* held : {&placed.anchors, &placed.still})
+        for (const auto& anchor : *held)
+            model.points.push_back({anchor.name, facs::ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
     if (registrations_) {
         model.dense = {registrations_, registrations_->motion(neutral, expressive).motion_mm};
         if (expressive.id.side() == facs::Side::both) keep_side(*model.dense, expression_);
+        if (options.spread_points > 0) keep_spread_points(model);
     }
     return model;
 }
@@ -337,9 +416,11 @@ nlohmann::json provenance_to_json(const ModelProvenance& provenance) {
 ModelProvenance provenance_from_json(const nlohmann::json& json) {
     using io::read_field;
     ModelProvenance provenance;
-    // Older files know sparse models alone.
+    // Older files know sparse models alone, and none of the steps between the thesis and the default.
     auto options = json;
-    if (!options.contains("correspondence")) options["correspondence"] = to_string(Correspondence::sparse);
+    const auto of_old = io::fields_to_json(ModelOptions::sparse());
+    for (const char* name : {"correspondence", "anchors_in_both_maps", "other_points", "spread_points"})
+        if (!options.contains(name)) options[name] = of_old[name];
     provenance.mimik_version = read_field<std::string>(json, "mimik");
     provenance.method = read_field<std::string>(json, "method");
     io::read_fields(options, provenance.options);

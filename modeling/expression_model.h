@@ -40,6 +40,16 @@ enum class Correspondence {
     return correspondence == Correspondence::dense ? "dense" : "sparse";
 }
 
+/// What becomes of control points that belong to other AUs than the expression's.
+enum class OtherPoints {
+    none,      ///< they are left out (thesis)
+    followed,  ///< those of the expression's half of the face are followed as measured, as its own are
+    still      ///< they hold still, those of both halves
+};
+[[nodiscard]] constexpr const char* to_string(OtherPoints points) {
+    return points == OtherPoints::none ? "none" : points == OtherPoints::followed ? "followed" : "still";
+}
+
 struct ModelOptions {
     Correspondence correspondence = Correspondence::dense;
     Normalisation normalisation = Normalisation::similarity;
@@ -52,6 +62,11 @@ struct ModelOptions {
     bool coverage_points = true;    ///< further points that cover the active zone evenly
     bool snap_to_vertices = false;  ///< move points to the nearest vertex (thesis) instead of the nearest surface point
     bool place_on_average = true;   ///< controls are placed on the average face and carried over; else on the source
+    bool anchors_in_both_maps = true;  ///< anchors hold still from neutral to expressive, too; else in the warp alone
+    OtherPoints other_points = OtherPoints::none;
+    /// As many points, spread evenly over the zone, take the place of all control points, move as the template does
+    /// there, and are all that is kept of a dense model; 0: none. Anchors stay.
+    int spread_points = 0;
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
@@ -64,6 +79,9 @@ struct ModelOptions {
         visit("coverage_points", self.coverage_points);
         visit("snap_to_vertices", self.snap_to_vertices);
         visit("place_on_average", self.place_on_average);
+        visit("anchors_in_both_maps", self.anchors_in_both_maps);
+        visit("other_points", self.other_points);
+        visit("spread_points", self.spread_points);
     }
     /// Control points alone, as they measured best.
     [[nodiscard]] static ModelOptions sparse();
@@ -144,13 +162,22 @@ public:
                                           std::vector<FollowedPoint>* followed = nullptr) const;
 
 private:
+    /// The points of the expression, and what becomes of those of other AUs.
+    struct Placed : PlacedControls {
+        std::vector<ControlPoint> still;  ///< controls of other AUs that hold still in the warp
+    };
+    [[nodiscard]] Placed place(const geometry::Landmarks& landmarks, const geometry::SurfaceIndex& surface) const;
+    void spread_over_zone();
+    void keep_spread_points(ExpressionModel& model) const;
+
     const facs::FacsCatalogue& catalogue_;
     const preprocessing::AverageFace& average_;
     facs::Expression expression_;
     ModelOptions options_;
     ExpressionModel begun_;  ///< what every model of this expression has
     std::shared_ptr<const preprocessing::KeptRegistrations> registrations_;  ///< of a dense model
-    PlacedControls on_average_;  ///< empty if the controls are placed on each source itself
+    Placed on_average_;                  ///< empty if the controls are placed on each source itself
+    std::vector<std::uint32_t> spread_;  ///< vertices of the template that spread_points stand on
 };
 
 /// One source alone. @throws as ExpressionGauge.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -106,6 +107,22 @@ FaceTemplate template_from_json(const json& document) {
 }  // namespace
 
 const FaceTemplate& TemplateMotion::face_template() const { return registrations->face_template(); }
+
+void keep_side(TemplateMotion& dense, const facs::Expression& expression) {
+    constexpr double blend_mm = 20.0;
+    const auto units = expression.units();
+    if (units.empty()) return;
+    const auto side = units.front().side;
+    for (const auto& unit : units)
+        if (unit.side != side) return;
+    if (side == facs::Side::both) return;
+    const double sign = side == facs::Side::left ? 1.0 : -1.0;
+    const auto& rest_mm = dense.face_template().surface.vertices_mm;
+    for (std::size_t v = 0; v < rest_mm.size(); ++v) {
+        const double t = std::clamp(0.5 + sign * rest_mm[v].x() / blend_mm, 0.0, 1.0);
+        dense.motion_mm[v] *= t * t * (3.0 - 2.0 * t);
+    }
+}
 
 void share_registrations(TemplateMotion& dense, const std::shared_ptr<const preprocessing::KeptRegistrations>& known) {
     if (preprocessing::template_fingerprint(dense.face_template()) ==

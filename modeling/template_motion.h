@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "facs/expression.h"
 #include "geometry/types.h"
 #include "preprocessing/face_template.h"
 
@@ -22,6 +23,9 @@ struct TemplateMotion {
 
     [[nodiscard]] const preprocessing::FaceTemplate& face_template() const;
 };
+
+/// Of a scan that shows both sides, an expression of one side takes that alone: smooth over 20 mm about the mid-line.
+void keep_side(TemplateMotion& dense, const facs::Expression& expression);
 
 /// Models that stand on one template share what is known of faces: a motion whose template is equal to that of `known`
 /// takes those in the place of its own.

@@ -23,6 +23,8 @@ class Nothing : public Method {
 public:
     [[nodiscard]] std::string name() const override { return "nothing"; }
     [[nodiscard]] std::string title() const override { return "doing nothing"; }
+    [[nodiscard]] std::string summary() const override { return "The neutral face itself"; }
+    [[nodiscard]] MethodGroup group() const override { return MethodGroup::simple; }
     [[nodiscard]] SourceKind needs() const override { return SourceKind::none; }
     [[nodiscard]] std::unique_ptr<const Learner> learner(const LearningTask&) const override {
         return std::make_unique<NothingToLearn>();

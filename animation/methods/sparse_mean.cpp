@@ -7,7 +7,9 @@ MethodPointer sparse_mean_method() {
     return std::make_shared<ModelMethod>(ModelMethod::Setting{.name = "sparse-mean",
                                                               .needs = SourceKind::all_but_target,
                                                               .model = modeling::ModelOptions::sparse(),
-                                                              .animation = {}});
+                                                              .animation = {},
+                                                              .summary = "The same, averaged over all but the target",
+                                                              .group = MethodGroup::usual});
 }
 
 }  // namespace mimik::animation::methods

@@ -23,6 +23,8 @@ expect_line "a command is missing; 'mimik --help' lists them" "$mimik"
 claim "so is a command"
 expect_line $'--kernel is \'r2log\'; give one of r, r2logr; did you mean r2logr?' "$mimik" warp --from a.csv --to b.csv c.csv -o d.csv --kernel r2log
 expect_line $'--method is \'thesi\'; give one of \ndid you mean thesis?' "$mimik" model WORK --method thesi
+expect_line $'--method is \'expression-cloning\'\nmakes no model that could be kept\nmimik evaluate' "$mimik" model WORK --method expression-cloning
+expect_line $'--method is \'mean\'\n--source mean' "$mimik" animate WORK --target a --au 12 -o b.ply --method mean
 expect_line $'--frame is \'\'; give one of scanner, average' "$mimik" animate WORK --target a -o b.ply --frame ''
 claim "so is a choice"
 for word in 1e 0x10 010x 1.5 '' ' 5' 5mm; do
@@ -59,6 +61,10 @@ claim "what is missing, too much or given twice is named with the usage"
 "$mimik" preprocess --help >help.txt
 "$mimik" preprocess -h | cmp - help.txt
 "$mimik" help preprocess | cmp - help.txt
+"$mimik" help methods >methods.txt
+for method in default thesis-half deformation-transfer landmarks true-field; do grep -q "^  $method " methods.txt || fail "help methods"; done
+grep -q "^  thesis-half  *\*" methods.txt && ! grep "^  deformation-transfer  *\*" methods.txt || fail "which methods make models"
+! awk 'length > 119' methods.txt | grep . || fail "help methods is too wide"
 "$mimik" help | cmp - <("$mimik" --help)
 [ "$("$mimik" -V)" = "$("$mimik" --version)" ] && [ "$("$mimik" scans -V)" = "$("$mimik" --version)" ]
 ! awk 'length > 100' help.txt | grep . || fail "help is wider than 100 columns"

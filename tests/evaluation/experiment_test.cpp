@@ -1,6 +1,7 @@
 #include "evaluation/experiment.h"
 
 #include <atomic>
+#include <cmath>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -126,6 +127,21 @@ TEST_F(Experiment, rows_on_disk_give_the_scores_of_the_report_again) {
     EXPECT_EQ(table.at("mean").at("12").explained, row(report, "mean").per_expression.at("12").explained);
     EXPECT_EQ(table.at("thesis").at("12").largest_step_mm,
               row(report, "thesis").per_expression.at("12").largest_step_mm);
+}
+
+/// Of three subjects whose smiles are known in closed form.
+TEST_F(Experiment, every_method_that_there_is_has_an_answer_for_every_case) {
+    auto options = smile_options();
+    options.methods = animation::known_methods();
+    options.whole_face = false;
+    const auto report = run(*workspace_, options);
+    EXPECT_THAT(report.failures, testing::IsEmpty());
+    for (const auto& method : options.methods) {
+        if (method->needs() == animation::SourceKind::none) continue;
+        const auto& score = row(report, method->title()).per_expression.at("12");
+        EXPECT_EQ(score.cases, method->needs() == animation::SourceKind::one_source ? 6U : 3U) << method->name();
+        EXPECT_GT(std::abs(*score.explained), 1e-3) << method->name();  // it moves the face
+    }
 }
 
 TEST_F(Experiment, zones_are_those_that_were_asked_for) {

@@ -1,5 +1,7 @@
 #include "modeling/expression_model.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -407,6 +409,88 @@ TEST_F(ExpressionModelTest, models_of_one_template_share_what_is_known_of_faces)
     const auto other = std::make_shared<const preprocessing::KeptRegistrations>(other_template);
     share_registrations(*again.dense, other);
     EXPECT_EQ(again.dense->registrations, first.dense->registrations);
+}
+
+TEST_F(ExpressionModelTest, the_points_of_other_units_are_followed_or_hold_still_as_the_options_say) {
+    auto options = ModelOptions::thesis();
+    const auto own = measure(*source_, options);
+    const auto named = [](const ExpressionModel& model, const std::string& name) {
+        return std::count_if(model.points.begin(), model.points.end(),
+                             [&](const ModelPoint& point) { return point.name == name; });
+    };
+    options.other_points = OtherPoints::followed;
+    const auto half = measure(*source_, options);
+    EXPECT_GT(half.points.size(), own.points.size() + 20);  // some thirty units of the lower face have points
+    EXPECT_EQ(half.moves_upper_face, own.moves_upper_face);
+    for (const auto& point : half.points) {
+        EXPECT_NE(point.kind, facs::ControlKind::anchor);
+        EXPECT_FALSE(point.name.starts_with("AU1.") || point.name.starts_with("AU4.")) << point.name;  // the brows'
+    }
+    options.other_points = OtherPoints::still;
+    const auto still = measure(*source_, options);
+    std::size_t held = 0;
+    for (const auto& point : still.points) {
+        if (point.kind != facs::ControlKind::anchor) {
+            EXPECT_EQ(named(own, point.name), 1) << point.name;
+            continue;
+        }
+        ++held;
+        EXPECT_EQ(point.displacement_mm, Vector(Vector::Zero()));
+        for (const auto& moved : own.points)  // where a point moves, none holds still
+            EXPECT_GT((moved.position_mm - point.position_mm).norm(), 1.0) << moved.name << ", " << point.name;
+    }
+    EXPECT_EQ(still.points.size(), own.points.size() + held);
+    EXPECT_GT(held, 20U);
+}
+
+TEST_F(ExpressionModelTest, anchors_may_hold_still_in_the_warp_alone) {
+    auto options = ModelOptions::sparse();
+    const auto both = measure(*source_, options);
+    options.anchors_in_both_maps = false;
+    const auto warp = measure(*source_, options);
+    ASSERT_EQ(warp.points.size(), both.points.size());
+    double largest = 0;
+    for (std::size_t k = 0; k < both.points.size(); ++k) {
+        ASSERT_EQ(warp.points[k].name, both.points[k].name);
+        largest = std::max(largest, (warp.points[k].displacement_mm - both.points[k].displacement_mm).norm());
+    }
+    EXPECT_GT(largest, 0.01);
+}
+
+TEST_F(ExpressionModelTest, spread_points_lie_apart_in_the_zone_and_move_as_the_template_does) {
+    const auto dense = measure(*source_, ModelOptions{});
+    ModelOptions options;
+    options.spread_points = 60;
+    const auto spread = measure(*source_, options);
+    EXPECT_FALSE(spread.dense);
+    std::vector<Point> places;
+    double sum_x = 0;
+    for (const auto& point : spread.points) {
+        if (point.kind == facs::ControlKind::anchor) continue;
+        places.push_back(point.position_mm);
+        sum_x += point.position_mm.x();
+        const auto& rest = dense.dense->face_template().surface.vertices_mm;
+        const auto v = static_cast<std::size_t>(std::find(rest.begin(), rest.end(), point.position_mm) - rest.begin());
+        ASSERT_LT(v, rest.size());
+        EXPECT_EQ(point.displacement_mm, dense.dense->motion_mm[v]);
+    }
+    ASSERT_EQ(places.size(), 60U);
+    double nearest = 1e9;
+    for (std::size_t k = 0; k < places.size(); ++k)
+        for (std::size_t m = 0; m < k; ++m) nearest = std::min(nearest, (places[k] - places[m]).norm());
+    EXPECT_GT(nearest, 4.0);               // the template's vertices are 2 mm apart
+    EXPECT_LT(std::abs(sum_x) / 60, 1.0);  // mirrored, but for a last one
+    options.place_on_average = false;
+    EXPECT_THROW(options.check(), InputError);
+}
+
+TEST_F(ExpressionModelTest, a_stored_model_of_before_these_options_has_none_of_them) {
+    auto model = measure(*source_);
+    model.provenance = ModelProvenance{"0", "sparse", ModelOptions::sparse(), "catalogue", "hash", "average"};
+    auto document = nlohmann::json::parse(encode_expression_model(model));
+    for (const auto* name : {"anchors_in_both_maps", "other_points", "spread_points"})
+        EXPECT_EQ(document["provenance"].erase(name), 1U);
+    EXPECT_EQ(decode_expression_model(document.dump(), "older").provenance->options, ModelOptions::sparse());
 }
 
 TEST(ModelOptions, a_dense_model_needs_a_frame_that_keeps_the_expression) {
