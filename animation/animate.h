@@ -114,6 +114,13 @@ struct AnimatedFace {
                                                            std::vector<CarriedPoint>* points = nullptr,
                                                            std::vector<std::string>* remarks = nullptr);
 
+/// The same at some vertices alone, of a model of control points without lids: for who asks again and again.
+/// @return one displacement per vertex asked for; zero of one that is not present
+[[nodiscard]] std::vector<geometry::Vector> displacements_at(const PreparedTarget& target,
+                                                             const modeling::ExpressionModel& model,
+                                                             const AnimationOptions& options,
+                                                             std::span<const std::uint32_t> vertices);
+
 /// Animates a neutral face with one or more expressions. @throws as expression_field; NumericalError naming the
 /// expression whose displacements are not finite.
 [[nodiscard]] AnimatedFace animate(const PreparedTarget& target, std::span<const WeightedExpression> expressions,

@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_animate_command(app, exit_code);
     mimik::cli::add_model_command(app, exit_code);
     mimik::cli::add_evaluate_command(app, exit_code);
+    mimik::cli::add_tune_command(app, exit_code);
     mimik::cli::add_panels_command(app, exit_code);
     mimik::cli::add_figure_command(app, exit_code);
     mimik::cli::add_warp_command(app, exit_code);

@@ -73,9 +73,9 @@ private:
         const auto cast = gather_cast(reader_, task, performances, plan_.methods, failures_, plan_.zones);
         const auto& code = planned.expression.code();
         const std::size_t count = cast.participants.size();
-        if (count < fewest_subjects)
+        if (count < plan_.fewest())
             return failures_.add(fmt::format("expression '{}': left out: {} left; an experiment needs {} or more", code,
-                                             base::counted(count, "subject is", "subjects are"), fewest_subjects));
+                                             base::counted(count, "subject is", "subjects are"), plan_.fewest()));
         for (const auto& remark : cast.remarks)
             if (std::find(remarks_.begin(), remarks_.end(), remark) == remarks_.end()) remarks_.push_back(remark);
         if (cast.zone_from == ZoneSource::catalogue && plan_.zones != ZoneSource::catalogue)
@@ -172,13 +172,15 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
     run.run();
     if (store->units() == 0)
         throw InputError(fmt::format("no expression is left to score ({})", fmt::join(run.failures(), "; ")));
-    const auto table = scores_of([&](const auto& visit) { store->read(visit); });
+    const auto table = scores_of([&](const auto& visit) { store->read(visit); },
+                                 plan.on_itself ? Pairs::source_on_itself : Pairs::of_two);
     store->finish();
 
     ExperimentReport report;
     report.subjects = plan.subjects;
     for (const auto& planned : plan.expressions) report.expressions.push_back(planned.expression);
     report.whole_face = plan.whole_face;
+    report.on_itself = plan.on_itself;
     report.zones = to_string(plan.zones);
     report.zones_by_catalogue = run.zones_by_catalogue();
     report.alignment = reader.has_truth() ? "true pose" : "ICP on the stable region";

@@ -27,6 +27,9 @@ struct ExperimentOptions {
     bool whole_face = true;  ///< score the face outside the zone, too
     int max_sources = 0;     ///< per target, the next ones in the list after it; 0 = all other subjects
     ZoneSource zones = ZoneSource::automatic;  ///< where methods are compared
+    /// Each source as its own target, and nobody else: the thesis' own check of its points (5.5.1). No row of two
+    /// people is made beside it.
+    bool on_itself = false;
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
@@ -36,6 +39,7 @@ struct ExperimentOptions {
         visit("whole_face", self.whole_face);
         visit("max_sources", self.max_sources);
         visit("zones", self.zones);
+        visit("on_itself", self.on_itself);
     }
     void check() const;  ///< throws InputError
     /// AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 on the left.
@@ -58,16 +62,20 @@ struct ExperimentPlan {
     bool whole_face = true;
     std::size_t max_sources = 0;               ///< 0 = all
     ZoneSource zones = ZoneSource::catalogue;  ///< not automatic
+    bool on_itself = false;                    ///< each source as its own target
 
     [[nodiscard]] std::size_t units() const;
-    /// The participants whose performances are learned from for one target: the ring that begins after it.
+    /// How many must show an expression.
+    [[nodiscard]] std::size_t fewest() const { return on_itself ? 1 : fewest_subjects; }
+    /// The participants whose performances are learned from for one target: the ring that begins after it; the target
+    /// alone where each source is its own.
     [[nodiscard]] std::vector<std::size_t> sources(std::size_t target, std::size_t participants) const;
 };
 
-/// An expression that fewer than 3 subjects show is left out and listed.
+/// An expression that fewer than 3 subjects show (1 where each is its own target) is left out and listed.
 /// @param truth  whether the database has one
-/// @throws InputError for bad options, zones or methods that need a truth where there is none, an expression that the
-/// catalogue lacks, or if none is left.
+/// @throws InputError for bad options, a mean where each source is its own target, zones or methods that need a truth
+/// where there is none, an expression that the catalogue lacks, or if none is left.
 [[nodiscard]] ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace,
                                              const facs::FacsCatalogue& catalogue, const ExperimentOptions& options,
                                              bool truth);

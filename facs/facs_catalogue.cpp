@@ -273,9 +273,11 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
         CataloguePoint point;
         point.name = reader.text(entry, "name");
         const auto kind = reader.text(entry, "kind");
-        if (kind != "muscle" && kind != "wrinkle")
-            reader.error(entry, fmt::format("kind {} is neither muscle nor wrinkle", base::in_quotes(kind)));
-        point.kind = kind == "wrinkle" ? ControlKind::wrinkle : ControlKind::muscle;
+        if (kind != "muscle" && kind != "wrinkle" && kind != "carried")
+            reader.error(entry, fmt::format("kind {} is none of muscle, carried, wrinkle", base::in_quotes(kind)));
+        point.kind = kind == "wrinkle"   ? ControlKind::wrinkle
+                     : kind == "carried" ? ControlKind::carried
+                                         : ControlKind::muscle;
         muscle_point = muscle_point || point.kind == ControlKind::muscle;
         const auto errors_before = reader.errors();
         point.placement = reader.placement(entry);
@@ -361,6 +363,8 @@ std::string_view to_string(ControlKind kind) {
     switch (kind) {
         case ControlKind::muscle:
             return "muscle";
+        case ControlKind::carried:
+            return "carried";
         case ControlKind::wrinkle:
             return "wrinkle";
         case ControlKind::coverage:
@@ -372,9 +376,11 @@ std::string_view to_string(ControlKind kind) {
 }
 
 ControlKind parse_control_kind(const std::string& text) {
-    for (const auto kind : {ControlKind::muscle, ControlKind::wrinkle, ControlKind::coverage, ControlKind::anchor})
+    for (const auto kind :
+         {ControlKind::muscle, ControlKind::carried, ControlKind::wrinkle, ControlKind::coverage, ControlKind::anchor})
         if (text == to_string(kind)) return kind;
-    throw InputError(fmt::format("kind {} is none of muscle, wrinkle, coverage, anchor", base::in_quotes(text)));
+    throw InputError(
+        fmt::format("kind {} is none of muscle, carried, wrinkle, coverage, anchor", base::in_quotes(text)));
 }
 
 namespace {

@@ -13,7 +13,8 @@
 namespace mimik::facs {
 
 enum class ControlKind {
-    muscle,    ///< where muscle fibres lie (thesis 5.5.1)
+    muscle,    ///< on the muscle that the AU names (thesis 5.5.1)
+    carried,   ///< lids, lips, cheeks: what the muscle takes along, without lying there
     wrinkle,   ///< where skin folds or bulges (thesis 5.5.2)
     coverage,  ///< fills the AU's zone evenly
     anchor     ///< holds still
