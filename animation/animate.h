@@ -54,7 +54,7 @@ struct AnimationOptions {
         visit("combination", self.combination);
         visit("lids", self.lids);
     }
-    /// The thesis as printed: r^2 ln r^2, no anchors, hard cut between upper and lower face.
+    /// The equations of the thesis: r^2 ln r^2, no anchors, hard cut between upper and lower face.
     [[nodiscard]] static AnimationOptions thesis();
     void check() const;
 };

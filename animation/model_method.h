@@ -17,6 +17,8 @@ public:
         SourceKind needs = SourceKind::one_source;
         modeling::ModelOptions model;
         AnimationOptions animation;
+        /// Of its own points, in the place of the task's; null: the task's.
+        const facs::FacsCatalogue& (*catalogue)() = nullptr;
     };
     /// @throws InputError for bad options, or a mean whose points do not stand on the average face.
     explicit ModelMethod(Setting setting);
@@ -26,6 +28,10 @@ public:
     [[nodiscard]] std::string lessons_key() const override;
     [[nodiscard]] std::unique_ptr<const Learner> learner(const LearningTask& task) const override;
 
+    /// Whose points it takes where nobody names a catalogue.
+    [[nodiscard]] const facs::FacsCatalogue& catalogue() const {
+        return setting_.catalogue ? setting_.catalogue() : facs::builtin_catalogue();
+    }
     [[nodiscard]] const modeling::ModelOptions& model_options() const { return setting_.model; }
     [[nodiscard]] const AnimationOptions& animation_options() const { return setting_.animation; }
 

@@ -26,7 +26,7 @@ namespace {
 
 struct Arguments {
     Common common;
-    std::string workspace, output, catalogue_file, zones;
+    std::string workspace, output, catalogue_file, zones, emotions = facs::usual_emotion_set;
     std::vector<std::string> methods, expressions;
     evaluation::ExperimentOptions options;
     bool no_reference = false, no_whole_face = false, dry_run = false, on_itself = false;
@@ -74,8 +74,9 @@ evaluation::ZoneSource zones_named(const std::string& name) {
 
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
-    const auto catalogue =
+    auto catalogue =
         arguments.catalogue_file.empty() ? facs::builtin_catalogue() : facs::read_catalogue(arguments.catalogue_file);
+    if (arguments.emotions != facs::usual_emotion_set) catalogue = catalogue.with_emotions(arguments.emotions);
     auto& options = arguments.options;
     if (arguments.methods.empty()) {
         arguments.methods = {"thesis", "default"};
@@ -141,12 +142,15 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     command->add_option("--max-sources", options.max_sources, "Sources per target; 0 = all other subjects")
         ->capture_default_str();
     command
-        ->add_option("--zones", arguments->zones,
-                     "Where methods are compared: where the truth, the data or the catalogue say that skin moves "
-                     "(default: truth where there is one, else data)")
+        ->add_option(
+            "--zones", arguments->zones,
+            "Where methods are compared: where the truth, the data or the built-in catalogue say that skin moves "
+            "(default: truth where there is one, else data)")
         ->check(CLI::IsMember({"truth", "data", "catalogue"}));
     command->add_option("--catalogue", arguments->catalogue_file,
                         "Another FACS catalogue (TOML) than the built-in one");
+    command->add_option("--emotions", arguments->emotions, "What emotions are made of: emfacs, thesis (Table 3-3)")
+        ->capture_default_str();
     command->add_flag("--no-reference", arguments->no_reference,
                       "Leave out the true-field reference of synthetic databases");
     command->add_flag("--no-whole-face", arguments->no_whole_face, "Score the active zone only (faster)");

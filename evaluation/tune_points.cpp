@@ -154,7 +154,7 @@ public:
         : unit_(unit), most_mm_(options.most_mm), mm_(geometry::outer_eye_distance_mm(facs::reference_landmarks())) {
         for (std::size_t k = 0; k < unit.points.size(); ++k) {
             if (unit.points[k].kind == ControlKind::carried && !options.carried) continue;
-            const bool midline = on_midline(unit.points[k].placement);
+            const bool midline = facs::on_midline(unit.points[k].placement);
             moves_.push_back({k, midline, variables_});
             variables_ += midline ? 1 : 2;
         }
@@ -210,11 +210,6 @@ private:
         bool midline = false;
         std::size_t first = 0;  // variable
     };
-    static bool on_midline(const facs::Placement& placement) {
-        return placement.lateral == 0.0 && std::all_of(placement.at.begin(), placement.at.end(), [](const auto& term) {
-                   return facs::reference_landmarks().find(term.first) != nullptr;
-               });
-    }
     /// As a catalogue has it, to a tenth of a millimetre: what is scored is what is written.
     static double written(double offset) { return std::round(offset * 1000.0) / 1000.0; }
 
@@ -365,7 +360,7 @@ FacsCatalogue with_moved_points(const FacsCatalogue& catalogue, const TunedUnit&
     auto units = catalogue.action_units();
     for (auto& unit : units)
         if (unit.number == tuned.unit) move_points(unit, tuned.points);
-    return {catalogue.sampling(), std::move(units), catalogue.emotions(), catalogue.name()};
+    return {catalogue.sampling(), std::move(units), catalogue.all_emotions(), catalogue.name()};
 }
 
 }  // namespace mimik::evaluation

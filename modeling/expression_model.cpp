@@ -226,7 +226,10 @@ ExpressionModel ExpressionGauge::measure(NormalisedSource& source, std::vector<F
         }
         for (const auto& anchor : placed.anchors) anchors_on_source.push_back(anchor.position_mm);
     }
-    model.mouth_width_mm = geometry::mouth_width_mm(model.landmarks);
+    // Eq. 5.8 needs the mouth of a source that moves the lower face; one that moves the upper does without.
+    const bool mouth = model.landmarks.find("mouth_corner_left") && model.landmarks.find("mouth_corner_right");
+    model.mouth_width_mm =
+        geometry::mouth_width_mm(mouth || model.moves_lower_face ? model.landmarks : average_.landmarks);
     model.left_out = placed.left_out;
 
     geometry::LandmarkPairs pairs(neutral_marks, expressive_marks);

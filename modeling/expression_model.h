@@ -67,7 +67,7 @@ struct ModelOptions {
     }
     /// Control points alone, as they measured best.
     [[nodiscard]] static ModelOptions sparse();
-    /// The thesis as printed: affine frame, r^2 ln r^2, no anchors, muscle and wrinkle points, nearest vertices.
+    /// The equations of the thesis: affine frame, r^2 ln r^2, no anchors, no coverage points, nearest vertices.
     [[nodiscard]] static ModelOptions thesis();
     [[nodiscard]] bool operator==(const ModelOptions&) const = default;
     void check() const;

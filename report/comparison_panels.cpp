@@ -140,13 +140,14 @@ Point centre_of(const geometry::QuadGrid& grid, geometry::BridgedVertices bridge
     return geometry::box_of(geometry::to_mesh(grid, bridged).vertices_mm).center();
 }
 
-/// `name,x,y,z,kind` of muscle and wrinkle points; coverage points in a file of their own, since they stand for no
-/// muscle. @return whether there was any.
+/// `name,x,y,z,kind` of muscle and wrinkle points; coverage and carried points in a file of their own, since they stand
+/// for no muscle. @return whether there was any.
 bool write_controls(const fs::path& file, const std::vector<NamedControl>& controls, bool coverage) {
     std::string text = "name,x,y,z,kind\n";
     bool any = false;
     for (const auto& control : controls) {
-        if (control.kind == ControlKind::anchor || (control.kind == ControlKind::coverage) != coverage) continue;
+        const bool of_no_muscle = control.kind == ControlKind::coverage || control.kind == ControlKind::carried;
+        if (control.kind == ControlKind::anchor || of_no_muscle != coverage) continue;
         any = true;
         text += fmt::format("{},{:.17g},{:.17g},{:.17g},{}\n", base::csv_field(control.name), control.position_mm.x(),
                             control.position_mm.y(), control.position_mm.z(), facs::to_string(control.kind));
@@ -476,7 +477,7 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
                                          const ComparisonRequest& request, const fs::path& folder) {
     const auto scans = compared_scans(workspace, catalogue, request);
     ComparisonFigure figure;
-    const auto zone = evaluation::active_zone_from_catalogue(request.expression, workspace.average(), catalogue);
+    const auto zone = evaluation::shipped_active_zone(request.expression, workspace.average());
 
     std::vector<Person> people;
     ExpressionModel model;

@@ -2,7 +2,8 @@
 
 namespace mimik::animation::methods {
 
-/// The thesis as printed: its own normalisation, r^2 ln r^2, no anchors, a hard cut between upper and lower face.
+/// The equations of the thesis: its own normalisation, r^2 ln r^2, no anchors, a hard cut between upper and lower face.
+/// Its points are ours: the thesis shows them in pictures alone (Figs 5-8, 5-9).
 MethodPointer thesis_method() {
     return std::make_shared<ModelMethod>(ModelMethod::Setting{.name = "thesis",
                                                               .needs = SourceKind::one_source,
