@@ -134,9 +134,8 @@ TEST_F(Experiment, a_source_on_itself_is_scored_alone_and_its_own_true_field_lea
     const database::TemporaryFolder folder;
     const auto file = folder.path() / "cases.csv";
     const PerformanceReader reader(*workspace_);
-    const auto report =
-        run_experiment(reader, facs::builtin_catalogue(),
-                       plan_experiment(*workspace_, facs::builtin_catalogue(), options, true), file);
+    const auto report = run_experiment(reader, facs::builtin_catalogue(),
+                                       plan_experiment(*workspace_, facs::builtin_catalogue(), options, true), file);
     EXPECT_TRUE(report.on_itself);
     EXPECT_EQ(report.rows.size(), 3U);  // no mean field: nobody else is asked
     const auto& field = row(report, "true field, one source").per_expression.at("12");

@@ -74,8 +74,7 @@ TEST_F(TunePoints, brings_a_point_that_was_put_off_back_to_where_it_does_best) {
     EXPECT_GT(bad.training.front().before_mm, good.training.front().before_mm);
     EXPECT_LT(bad.training.front().after_mm, bad.training.front().before_mm);
     // From both starts the search ends at errors within a step of each other.
-    EXPECT_NEAR(bad.training.front().after_mm, good.training.front().after_mm,
-                0.1 * good.training.front().nothing_mm);
+    EXPECT_NEAR(bad.training.front().after_mm, good.training.front().after_mm, 0.1 * good.training.front().nothing_mm);
     EXPECT_LT(bad.points.front().up, bad.points.front().was_up);
     EXPECT_TRUE(bad.converged);
     EXPECT_EQ(bad.training.front().cases, 2U);

@@ -41,7 +41,8 @@ TEST(CatalogueEdit, counts_characters_and_not_bytes_before_a_point) {
     const std::string before = "{ name = \"raised_cheek\"";
     text.replace(text.find(before), before.size(), "{ name = \"r\xC3\xA4ised_ch\xE2\x82\xACk\"");
     const std::vector<PointOffset> offsets = {{12, "r\xC3\xA4ised_ch\xE2\x82\xACk", 0.02, 0.03}};
-    EXPECT_EQ(point_of(parse_catalogue(with_offsets(text, offsets), "edited"), 12, offsets[0].point).placement.up, 0.03);
+    EXPECT_EQ(point_of(parse_catalogue(with_offsets(text, offsets), "edited"), 12, offsets[0].point).placement.up,
+              0.03);
 }
 
 TEST(CatalogueEdit, refuses_points_that_are_not_there) {

@@ -96,13 +96,14 @@ TEST(BuiltinCatalogue, knows_the_muscles_that_the_thesis_names) {
 }
 
 TEST(BuiltinCatalogue, has_every_unit_of_table_3_2_of_the_thesis_and_says_where_each_muscle_was_published) {
-    for (const int number : {1,  2,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 20,
-                             22, 23, 24, 25, 26, 27, 28, 38, 39, 41, 42, 43, 44, 45, 46})
+    for (const int number : {1,  2,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18,
+                             20, 22, 23, 24, 25, 26, 27, 28, 38, 39, 41, 42, 43, 44, 45, 46})
         EXPECT_NE(builtin_catalogue().find(number), nullptr) << number;
     EXPECT_THAT(builtin_catalogue().find(13)->name, HasSubstr("Cheek Puffer"));
     for (const auto& unit : builtin_catalogue().action_units())
         for (const auto& muscle : unit.muscles)
-            EXPECT_THAT(muscle.reference, testing::ContainsRegex("\\(pp?\\. 3[67]")) << unit.number << ' ' << muscle.name;
+            EXPECT_THAT(muscle.reference, testing::ContainsRegex("\\(pp?\\. 3[67]"))
+                << unit.number << ' ' << muscle.name;
 }
 
 TEST(BuiltinCatalogue, calls_no_lip_or_lid_a_muscle_of_a_unit_that_only_carries_it) {
@@ -139,7 +140,8 @@ TEST(BuiltinCatalogue, makes_emotions_of_table_3_3_where_that_set_is_chosen) {
         (void)builtin_catalogue().with_emotions("mine");
         FAIL() << "not refused";
     } catch (const InputError& e) {
-        EXPECT_THAT(e.what(), HasSubstr("emotions 'mine' are not in the built-in catalogue; there are: emfacs, thesis"));
+        EXPECT_THAT(e.what(),
+                    HasSubstr("emotions 'mine' are not in the built-in catalogue; there are: emfacs, thesis"));
     }
 }
 
