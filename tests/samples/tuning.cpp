@@ -19,8 +19,9 @@ facs::FacsCatalogue tuned_catalogue(const preprocessing::Workspace& workspace, i
     const auto method = animation::method_by_name("thesis");
     const auto& thesis = dynamic_cast<const animation::ModelMethod&>(*method);
     evaluation::FailureList failures;
+    const std::vector trained = {training}, kept = {unseen};
     const auto tuned =
-        evaluation::tune_points({{training}}, {{unseen}}, facs::builtin_catalogue(), unit, thesis, options, failures);
+        evaluation::tune_points(trained, kept, facs::builtin_catalogue(), unit, thesis, options, failures);
     explained_of_unseen = tuned.unseen.front().explained_after();
     return evaluation::with_moved_points(facs::builtin_catalogue(), tuned);
 }
