@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -127,33 +128,46 @@ std::vector<double> vertex_weights(const geometry::FaceSurface& surface, const E
     return weights;
 }
 
-/// By the spline between the controls.
-geometry::DisplacementField sparse_field(const PreparedTarget& target, const ExpressionModel& model,
-                                         const AnimationOptions& options, std::vector<CarriedPoint>* points,
-                                         std::vector<std::string>* remarks) {
-    const Controls controls = carry(target, model, options, points, remarks);
-    const auto warp = geometry::ThinPlateSpline::fit(
-        controls.from, controls.to, {.kernel = options.kernel, .smoothing = options.smoothing}, controls.names);
-
-    const auto& surface = target.surface();
+/// By the spline between the controls, at the vertices asked for.
+std::vector<Vector> warped_by(const geometry::ThinPlateSpline& warp, const PreparedTarget& target,
+                              const ExpressionModel& model, const std::vector<double>& weights,
+                              std::span<const std::uint32_t> vertices) {
     const auto& normalised = target.normalised(model.normalisation);
-    const auto weights = vertex_weights(surface, model, options);
-    std::vector<std::uint32_t> moving;
+    std::vector<std::size_t> moving;
     std::vector<Point> positions;
-    for (std::uint32_t v = 0; v < surface.size(); ++v)
-        if (surface.present[v] && weights[v] > 0) {
-            moving.push_back(v);
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+        if (const auto v = vertices[k]; target.surface().present[v] && weights[v] > 0) {
+            moving.push_back(k);
             positions.push_back(normalised.vertices_mm[v]);
         }
     std::vector<Point> warped(positions.size());
     warp.apply(positions, warped);
     const Eigen::Matrix3d target_from_average = normalised.average_from_target.linear().inverse();
-    auto field = geometry::DisplacementField::still(surface.size());
-    field.answered = surface.present;
+    std::vector<Vector> displacements(vertices.size(), Vector::Zero());
     for (std::size_t k = 0; k < moving.size(); ++k) {
-        const Vector displacement = weights[moving[k]] * (warped[k] - positions[k]);
-        field.mm[moving[k]] = target_from_average * displacement;
+        const Vector displacement = weights[vertices[moving[k]]] * (warped[k] - positions[k]);
+        displacements[moving[k]] = target_from_average * displacement;
     }
+    return displacements;
+}
+
+std::vector<Vector> sparse_displacements(const PreparedTarget& target, const ExpressionModel& model,
+                                         const AnimationOptions& options, std::span<const std::uint32_t> vertices,
+                                         std::vector<CarriedPoint>* points, std::vector<std::string>* remarks) {
+    const Controls controls = carry(target, model, options, points, remarks);
+    const auto warp = geometry::ThinPlateSpline::fit(
+        controls.from, controls.to, {.kernel = options.kernel, .smoothing = options.smoothing}, controls.names);
+    return warped_by(warp, target, model, vertex_weights(target.surface(), model, options), vertices);
+}
+
+geometry::DisplacementField sparse_field(const PreparedTarget& target, const ExpressionModel& model,
+                                         const AnimationOptions& options, std::vector<CarriedPoint>* points,
+                                         std::vector<std::string>* remarks) {
+    std::vector<std::uint32_t> all(target.surface().size());
+    std::iota(all.begin(), all.end(), 0U);
+    geometry::DisplacementField field;
+    field.mm = sparse_displacements(target, model, options, all, points, remarks);
+    field.answered = target.surface().present;
     return field;
 }
 
@@ -171,6 +185,12 @@ geometry::DisplacementField expression_field(const PreparedTarget& target, const
     if (options.lids) slide_lids(target, model.expression, field, remarks);
     for (std::size_t v = 0; v < keep.size(); ++v) field.mm[v] *= keep[v];
     return field;
+}
+
+std::vector<Vector> displacements_at(const PreparedTarget& target, const ExpressionModel& model,
+                                     const AnimationOptions& options, std::span<const std::uint32_t> vertices) {
+    options.check();
+    return sparse_displacements(target, model, options, vertices, nullptr, nullptr);
 }
 
 double lip_parting_mm(const ExpressionModel& model) {

@@ -54,7 +54,7 @@ struct AnimationOptions {
         visit("combination", self.combination);
         visit("lids", self.lids);
     }
-    /// The thesis as printed: r^2 ln r^2, no anchors, hard cut between upper and lower face.
+    /// The equations of the thesis: r^2 ln r^2, no anchors, hard cut between upper and lower face.
     [[nodiscard]] static AnimationOptions thesis();
     void check() const;
 };
@@ -113,6 +113,13 @@ struct AnimatedFace {
                                                            const AnimationOptions& options,
                                                            std::vector<CarriedPoint>* points = nullptr,
                                                            std::vector<std::string>* remarks = nullptr);
+
+/// The same at some vertices alone, of a model of control points without lids: for who asks again and again.
+/// @return one displacement per vertex asked for; zero of one that is not present
+[[nodiscard]] std::vector<geometry::Vector> displacements_at(const PreparedTarget& target,
+                                                             const modeling::ExpressionModel& model,
+                                                             const AnimationOptions& options,
+                                                             std::span<const std::uint32_t> vertices);
 
 /// Animates a neutral face with one or more expressions. @throws as expression_field; NumericalError naming the
 /// expression whose displacements are not finite.

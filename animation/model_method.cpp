@@ -50,7 +50,9 @@ private:
 class ModelLearner : public Learner {
 public:
     ModelLearner(const LearningTask& task, const ModelMethod::Setting& setting)
-        : setting_(setting), gauge_(task.catalogue, task.expression, task.average, setting.model, task.registrations) {}
+        : setting_(setting),
+          gauge_(setting.catalogue ? setting.catalogue() : task.catalogue, task.expression, task.average, setting.model,
+                 task.registrations) {}
 
     [[nodiscard]] LessonPointer study(const modeling::Performance& performance) const override {
         return std::make_shared<const ModelLesson>(gauge_.measure(performance.neutral, performance.expressive));
@@ -88,7 +90,9 @@ ModelMethod::Setting ModelMethod::thesis(std::string name, std::string summary) 
             .group = MethodGroup::thesis};
 }
 
-std::string ModelMethod::lessons_key() const { return "model" + base::field_text(setting_.model); }
+std::string ModelMethod::lessons_key() const {
+    return "model" + base::field_text(setting_.model) + (setting_.catalogue ? " by points of its own: " + name() : "");
+}
 
 std::unique_ptr<const Learner> ModelMethod::learner(const LearningTask& task) const {
     return std::make_unique<ModelLearner>(task, setting_);

@@ -19,8 +19,10 @@ public:
         AnimationOptions animation;
         std::string summary = {};  ///< one sentence; empty: the name
         MethodGroup group = MethodGroup::usual;
+        /// Of its own points, in the place of the task's; null: the task's.
+        const facs::FacsCatalogue& (*catalogue)() = nullptr;
     };
-    /// The thesis as printed, from one source: what its variants change.
+    /// The equations of the thesis, from one source: what its variants change.
     [[nodiscard]] static Setting thesis(std::string name, std::string summary);
     /// @throws InputError for bad options, or a mean whose points do not stand on the average face.
     explicit ModelMethod(Setting setting);
@@ -34,6 +36,10 @@ public:
     [[nodiscard]] std::string lessons_key() const override;
     [[nodiscard]] std::unique_ptr<const Learner> learner(const LearningTask& task) const override;
 
+    /// Whose points it takes where nobody names a catalogue.
+    [[nodiscard]] const facs::FacsCatalogue& catalogue() const {
+        return setting_.catalogue ? setting_.catalogue() : facs::builtin_catalogue();
+    }
     [[nodiscard]] const modeling::ModelOptions& model_options() const { return setting_.model; }
     [[nodiscard]] const AnimationOptions& animation_options() const { return setting_.animation; }
 

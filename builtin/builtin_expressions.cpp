@@ -149,7 +149,9 @@ modeling::ExpressionModel BuiltinExpressions::model(const facs::FacsCatalogue& c
     const auto& parts = *parts_;
     synthesis::PosedExpression posed;
     try {
-        posed = synthesis::make_expression(expression.code());
+        const auto& emotions = catalogue.emotions();
+        const bool known = !emotions.empty() && synthesis::is_emotion_set(emotions.front().set);
+        posed = synthesis::make_expression(expression.code(), known ? emotions.front().set : facs::usual_emotion_set);
     } catch (const InputError& e) {
         throw InputError(
             fmt::format("the built-in faces do not show {}: {}; give a workspace", expression.name(), e.what()));

@@ -79,6 +79,30 @@ std::vector<modeling::ExpressionModel> arkit_models(const ExpressionShelf& shelf
     return models;
 }
 
+/// The expression itself where the source shows it. Else what it is made of, as the thesis does (7.2, Fig. 7-2: SADNESS
+/// of AU 1 and 15): each part by its own model, so that in thesis mode each keeps its half of the face, its cut and its
+/// ratio. What nobody shows is left out and said.
+std::vector<facs::Expression> parts_of(const facs::Expression& expression, const ExpressionShelf& shelf,
+                                       const modeling::ExpressionSource& source, const std::string& combine,
+                                       std::vector<std::string>& remarks) {
+    if (expression.units().size() < 2 || shelf.shows(expression, source)) return {expression};
+    std::vector<facs::Expression> parts;
+    std::vector<std::string> taken, missing;
+    for (const auto& unit : expression.units()) {
+        auto part = facs::Expression::of_units({unit});
+        const bool shown = shelf.shows(part, source);
+        (shown ? taken : missing).push_back(part.name());
+        if (shown) parts.push_back(std::move(part));
+    }
+    if (parts.empty()) return {expression};  // whose error says what there is
+    remarks.push_back(fmt::format(
+        "{}: no scan shows it, so it is composed of {} (--combine {}){}", expression.name(), fmt::join(taken, " + "),
+        combine,
+        missing.empty() ? std::string()
+                        : fmt::format("; {} left out, no scan shows that either", fmt::join(missing, ", "))));
+    return parts;
+}
+
 std::string source_words(const AnimateArguments& arguments) {
     if (arguments.action_units.empty()) return "model files";
     const std::string source = arguments.workspace.empty() ? "built-in" : arguments.source;
@@ -142,11 +166,13 @@ ChosenExpressions choose_expressions(const AnimateArguments& arguments, const Ex
     for (const auto& typed : arguments.action_units) {
         if (base::equal_ignoring_case(typed, all_of_arkit)) continue;
         const auto [text, magnitude] = facs::split_magnitude(typed);
-        auto model =
-            shelf.model(catalogue, shelf.expression(catalogue, text), source, arguments.method.model_options());
-        note_unusable(model, chosen.failures);
-        taken.insert(facs::arkit_shape(catalogue, model.expression));
-        add(std::move(model), magnitude);
+        for (const auto& part :
+             parts_of(shelf.expression(catalogue, text), shelf, source, arguments.combine, chosen.remarks)) {
+            auto model = shelf.model(catalogue, part, source, arguments.method.model_options());
+            note_unusable(model, chosen.failures);
+            taken.insert(facs::arkit_shape(catalogue, model.expression));
+            add(std::move(model), magnitude);
+        }
     }
     if (asks_for_arkit(arguments))
         for (auto& model :

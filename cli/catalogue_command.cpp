@@ -23,11 +23,11 @@ namespace {
 struct Request {
     Common common;
     std::string file;
-    bool lint = false, text = false;
+    bool lint = false, text = false, thesis = false;
 };
 
 struct PointCounts {
-    std::ptrdiff_t muscle, wrinkle;
+    std::ptrdiff_t muscle, wrinkle, carried;
 };
 
 PointCounts count_points(const facs::ActionUnit& unit) {
@@ -35,7 +35,7 @@ PointCounts count_points(const facs::ActionUnit& unit) {
         return std::count_if(unit.points.begin(), unit.points.end(),
                              [&](const auto& point) { return point.kind == kind; });
     };
-    return {of(facs::ControlKind::muscle), of(facs::ControlKind::wrinkle)};
+    return {of(facs::ControlKind::muscle), of(facs::ControlKind::wrinkle), of(facs::ControlKind::carried)};
 }
 
 nlohmann::json unit_to_json(const facs::ActionUnit& unit) {
@@ -52,7 +52,8 @@ nlohmann::json unit_to_json(const facs::ActionUnit& unit) {
             {"arkit", unit.arkit},
             {"arkit_whole", unit.arkit_whole},
             {"muscle_points", counts.muscle},
-            {"wrinkle_points", counts.wrinkle}};
+            {"wrinkle_points", counts.wrinkle},
+            {"carried_points", counts.carried}};
 }
 
 /// Every reference once, with the AUs whose muscles it stands for.
@@ -73,19 +74,19 @@ void list_references(const facs::FacsCatalogue& catalogue) {
 void list_units(const facs::FacsCatalogue& catalogue, const std::string& name) {
     std::cout << fmt::format("{}: {}; points of one side\n\n", name,
                              base::counted(catalogue.action_units().size(), "action unit"));
-    std::cout << fmt::format("{:>3}  {:<22} {:<6} {:<8} {:>6} {:>8}  {}\n", "AU", "name", "region", "sides", "muscle",
-                             "wrinkle", "muscles");
+    std::cout << fmt::format("{:>3}  {:<22} {:<6} {:<8} {:>6} {:>7} {:>8}  {}\n", "AU", "name", "region", "sides",
+                             "muscle", "carried", "wrinkle", "muscles");
     for (const auto& unit : catalogue.action_units()) {
         std::vector<std::string_view> muscles;
         for (const auto& muscle : unit.muscles) muscles.push_back(muscle.name);
         const auto counts = count_points(unit);
-        std::cout << fmt::format("{:>3}  {:<22} {:<6} {:<8} {:>6} {:>8}  {}\n", unit.number, unit.name,
+        std::cout << fmt::format("{:>3}  {:<22} {:<6} {:<8} {:>6} {:>7} {:>8}  {}\n", unit.number, unit.name,
                                  unit.lower_face ? "lower" : "upper", unit.central ? "central" : "paired",
-                                 counts.muscle, counts.wrinkle, fmt::join(muscles, "; "));
+                                 counts.muscle, counts.carried, counts.wrinkle, fmt::join(muscles, "; "));
     }
-    if (!catalogue.emotions().empty()) std::cout << '\n';
-    for (const auto& emotion : catalogue.emotions())
-        std::cout << fmt::format("{:<10} {}\n", emotion.name, fmt::join(emotion.action_units, "+"));
+    if (!catalogue.all_emotions().empty()) std::cout << '\n';
+    for (const auto& emotion : catalogue.all_emotions())
+        std::cout << fmt::format("{:<10} {:<8} {}\n", emotion.name, emotion.set, fmt::join(emotion.action_units, "+"));
     list_references(catalogue);
 }
 
@@ -111,8 +112,13 @@ int lint(const Request& request, const std::string& text, const std::string& nam
 
 int run(const Request& request) {
     const bool own = !request.file.empty();
-    const std::string name = own ? request.file : "built-in catalogue";
-    const std::string text = own ? base::read_text(request.file, 1 << 22) : std::string(facs::builtin_catalogue_text());
+    if (own && request.thesis) throw InputError("--thesis: a file is given, too; give one of them");
+    const std::string name = own              ? request.file
+                             : request.thesis ? "built-in catalogue of the thesis"
+                                              : "built-in catalogue";
+    const std::string text =
+        own ? base::read_text(request.file, 1 << 22)
+            : std::string(request.thesis ? facs::thesis_catalogue_text() : facs::builtin_catalogue_text());
     if (request.text) {
         // To a file as it is; a terminal is spared its control characters.
         (isatty(STDOUT_FILENO) != 0 ? std::cout : raw_output()) << text;
@@ -127,8 +133,8 @@ int run(const Request& request) {
     auto units = nlohmann::json::array();
     for (const auto& unit : catalogue.action_units()) units.push_back(unit_to_json(unit));
     auto emotions = nlohmann::json::array();
-    for (const auto& emotion : catalogue.emotions())
-        emotions.push_back({{"name", emotion.name}, {"units", emotion.action_units}});
+    for (const auto& emotion : catalogue.all_emotions())
+        emotions.push_back({{"name", emotion.name}, {"set", emotion.set}, {"units", emotion.action_units}});
     std::cout << io::json_text(
         nlohmann::json{{"schema", 1}, {"catalogue", name}, {"action_units", units}, {"emotions", emotions}});
     return exit_done;
@@ -142,6 +148,7 @@ void add_catalogue_command(CLI::App& app, int& exit_code) {
     add_common_options(*command, request->common);
     command->add_option("FILE", request->file, "Catalogue file (TOML); without it, the one that Mimik ships");
     auto* lint = command->add_flag("--lint", request->lint, "List every fault of the file with its line");
+    command->add_flag("--thesis", request->thesis, "The built-in one with the points of method thesis-tuned");
     command->add_flag("--text", request->text, "Print the file itself: a start for one's own")
         ->excludes(lint, command->get_option("--json"));
     command->callback([request, &exit_code] { exit_code = run(*request); });

@@ -26,10 +26,10 @@ namespace {
 
 struct Arguments {
     Common common;
-    std::string workspace, output, catalogue_file, zones;
-    std::vector<std::string> methods = {"thesis", "default", "mean"}, expressions;
+    std::string workspace, output, catalogue_file, zones, emotions = facs::usual_emotion_set;
+    std::vector<std::string> methods, expressions;
     evaluation::ExperimentOptions options;
-    bool no_reference = false, no_whole_face = false, dry_run = false;
+    bool no_reference = false, no_whole_face = false, dry_run = false, on_itself = false;
 };
 
 int say_plan(const Arguments& arguments, const evaluation::ExperimentPlan& plan) {
@@ -74,9 +74,15 @@ evaluation::ZoneSource zones_named(const std::string& name) {
 
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
-    const auto catalogue =
+    auto catalogue =
         arguments.catalogue_file.empty() ? facs::builtin_catalogue() : facs::read_catalogue(arguments.catalogue_file);
+    if (arguments.emotions != facs::usual_emotion_set) catalogue = catalogue.with_emotions(arguments.emotions);
     auto& options = arguments.options;
+    if (arguments.methods.empty()) {
+        arguments.methods = {"thesis", "default"};
+        if (!arguments.on_itself) arguments.methods.emplace_back("mean");
+    }
+    options.on_itself = arguments.on_itself;
     refuse_doubles("--method", arguments.methods);
     options.methods.clear();
     for (const auto& name : arguments.methods) options.methods.push_back(animation::method_by_name(name));
@@ -86,7 +92,7 @@ int run(Arguments& arguments) {
     options.whole_face = !arguments.no_whole_face;
     const evaluation::PerformanceReader reader(workspace);
     evaluation::ExperimentPlan plan;
-    check_by_option({{"max_sources", "--max-sources"}},
+    check_by_option({{"max_sources", "--max-sources"}, {"on_itself", "--on-itself"}},
                     [&] { plan = evaluation::plan_experiment(workspace, catalogue, options, reader.has_truth()); });
     const std::filesystem::path folder =
         arguments.output.empty() ? workspace.root() / "scores" : std::filesystem::path(arguments.output);
@@ -95,18 +101,21 @@ int run(Arguments& arguments) {
     evaluation::ExperimentReport report;
     {
         Progress progress(arguments.common, "evaluate", plan.units());
-        remove_at_signals(folder / "cases.csv.part");
-        report = evaluation::run_experiment(reader, catalogue, plan, folder / "cases.csv",
+        const auto cases = folder / (options.on_itself ? "cases_on_itself.csv" : "cases.csv");
+        remove_at_signals(cases.string() + ".part");
+        report = evaluation::run_experiment(reader, catalogue, plan, cases,
                                             [&](const std::string& what) { progress.advance(what); });
     }
     const auto markdown = report::to_markdown(report), json = report::to_json(report);
-    base::write_atomically(folder / "scores.md", markdown);
-    base::write_atomically(folder / "scores.csv", report::to_csv(report));
-    base::write_atomically(folder / "scores.json", json);
+    const auto stem = folder / (options.on_itself ? "on_itself" : "scores");
+    base::write_atomically(stem.string() + ".md", markdown);
+    base::write_atomically(stem.string() + ".csv", report::to_csv(report));
+    base::write_atomically(stem.string() + ".json", json);
     std::cout << (arguments.common.json ? json : markdown) << std::flush;
     if (!arguments.common.quiet) say_notes(report.remarks);
     if (!arguments.common.json && !arguments.common.quiet)
-        std::cerr << fmt::format("{:.1f} s; every case is in {}\n", report.seconds, (folder / "cases.csv").string());
+        std::cerr << fmt::format("{:.1f} s; every case is in {}\n", report.seconds,
+                                 (folder / (options.on_itself ? "cases_on_itself.csv" : "cases.csv")).string());
     return report.failures.empty() ? exit_done : exit_done_with_failures;
 }
 
@@ -122,7 +131,10 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
                      "Methods to score; 'mimik help methods' lists them (mean is --source mean of the other commands)")
         ->delimiter(',')
         ->check(CLI::IsMember(method_names()))
-        ->capture_default_str();
+        ->default_str("thesis,default,mean");
+    command->add_flag("--on-itself", arguments->on_itself,
+                      "Score each source on itself, and nobody on others; into on_itself.md, .csv, .json and "
+                      "cases_on_itself.csv");
     for (const auto& expression : evaluation::ExperimentOptions::thesis_expressions())
         arguments->expressions.push_back(expression.code());
     command->add_option("--expression,--au", arguments->expressions, "AUs and emotions to score")
@@ -131,12 +143,15 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     command->add_option("--max-sources", options.max_sources, "Sources per target; 0 = all other subjects")
         ->capture_default_str();
     command
-        ->add_option("--zones", arguments->zones,
-                     "Where methods are compared: where the truth, the data or the catalogue say that skin moves "
-                     "(default: truth where there is one, else data)")
+        ->add_option(
+            "--zones", arguments->zones,
+            "Where methods are compared: where the truth, the data or the built-in catalogue say that skin moves "
+            "(default: truth where there is one, else data)")
         ->check(CLI::IsMember({"truth", "data", "catalogue"}));
     command->add_option("--catalogue", arguments->catalogue_file,
                         "Another FACS catalogue (TOML) than the built-in one");
+    command->add_option("--emotions", arguments->emotions, "What emotions are made of: emfacs, thesis (Table 3-3)")
+        ->capture_default_str();
     command->add_flag("--no-reference", arguments->no_reference,
                       "Leave out the true-field reference of synthetic databases");
     command->add_flag("--no-whole-face", arguments->no_whole_face, "Score the active zone only (faster)");

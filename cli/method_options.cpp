@@ -108,12 +108,17 @@ bool MethodArguments::has_control_points() const {
 
 void MethodArguments::add_to(CLI::App& command, Methods methods) {
     command
-        .add_option("--method", name,
-                    "default (what measured best), sparse (control points alone), thesis (as printed), or another of "
-                    "'mimik help methods'")
+        .add_option(
+            "--method", name,
+            "default (what measured best), sparse (control points alone), thesis (its equations), thesis-tuned, "
+            "or another of 'mimik help methods'")
         ->check(CLI::IsMember(methods == Methods::all ? method_names() : model_method_names()))
         ->capture_default_str();
     command.add_option("--catalogue", catalogue_file, "Another FACS catalogue (TOML) than the built-in one");
+    command
+        .add_option("--emotions", emotions,
+                    "What emotions are made of: emfacs, thesis (its Table 3-3), or a set of the catalogue")
+        ->capture_default_str();
     command
         .add_option("--kernel", kernel, "Spline kernel; another than the method's own passes through every landmark")
         ->check(CLI::IsMember({"r", "r2logr"}));
@@ -121,7 +126,12 @@ void MethodArguments::add_to(CLI::App& command, Methods methods) {
 }
 
 facs::FacsCatalogue MethodArguments::catalogue() const {
-    return catalogue_file.empty() ? facs::builtin_catalogue() : facs::read_catalogue(catalogue_file);
+    const auto method = animation::method_by_name(name);
+    const auto* by_points = dynamic_cast<const animation::ModelMethod*>(method.get());
+    const auto own = !catalogue_file.empty() ? facs::read_catalogue(catalogue_file)
+                     : by_points             ? by_points->catalogue()
+                                             : facs::builtin_catalogue();
+    return emotions == facs::usual_emotion_set ? own : own.with_emotions(emotions);
 }
 
 namespace {
@@ -169,6 +179,7 @@ modeling::ModelProvenance MethodArguments::provenance(const facs::FacsCatalogue&
 
 std::string MethodArguments::variant_name() const {
     auto variant = name + modeling::variant_suffix(model_options(), model_method(name).model_options());
+    if (emotions != facs::usual_emotion_set) variant += "_emotions-" + emotions;
     if (!catalogue_file.empty()) variant += "_catalogue-" + std::filesystem::path(catalogue_file).stem().string();
     return variant;
 }

@@ -27,8 +27,9 @@ namespace mimik::cli {
 /// --method and the single switches that differ from it; shared by the commands that model and animate.
 struct MethodArguments {
     std::string name = "default";
-    std::string catalogue_file;  ///< empty: the catalogue that Mimik ships
-    std::string kernel;          ///< empty: as the method has it
+    std::string catalogue_file;                      ///< empty: the catalogue that Mimik ships
+    std::string emotions = facs::usual_emotion_set;  ///< which prototypes the catalogue's emotions have
+    std::string kernel;                              ///< empty: as the method has it
     bool no_anchors = false;
 
     enum class Methods { by_control_points, all };

@@ -169,10 +169,12 @@ void add_synthesize_command(CLI::App& app, int& exit_code) {
         ->add_option("--expressions", options.expressions,
                      "thesis, emotions, further, all, or codes such as 12,AU12_L,HAPPY; commas between")
         ->capture_default_str();
+    command->add_option("--emotions", options.emotions, "What emotions are made of: emfacs, thesis (its Table 3-3)")
+        ->capture_default_str();
     command->add_option("--neutrals", options.neutrals, "Neutral scans per person")->capture_default_str();
     command->add_flag("--repeat", options.repeat, "A second scan _1 of each expression");
     add_seed_option(*command, options.seed);
-    for (const char* field : {"subjects", "expressions", "neutrals"})
+    for (const char* field : {"subjects", "expressions", "emotions", "neutrals"})
         arguments->option_of_field[field] = fmt::format("--{}", field);
     command->add_flag("--no-facs-codes", arguments->no_facs_codes, "Do not write facscodes.lst");
     command->add_flag("--dry-run", arguments->dry_run, "Say how much time and disk it takes, and stop");

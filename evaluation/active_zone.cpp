@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -67,13 +68,19 @@ ActiveZone MotionZone::zone(const facs::Expression& expression, double share) co
     return zone;
 }
 
-ActiveZone active_zone_from_catalogue(const facs::Expression& expression, const AverageFace& average,
-                                      const facs::FacsCatalogue& catalogue) {
-    const facs::ExpressionZone drawn(catalogue, expression, average.landmarks);
+ActiveZone shipped_active_zone(const facs::Expression& expression, const AverageFace& average) {
+    const auto& shipped = facs::builtin_catalogue();
+    const auto units = expression.units();
+    const bool known = std::all_of(units.begin(), units.end(),
+                                   [&](const facs::UnitOnSide& part) { return shipped.find(part.unit) != nullptr; }) &&
+                       (!units.empty() || shipped.find_expression(expression.code()));
+    std::optional<facs::ExpressionZone> drawn;
+    if (known) drawn.emplace(shipped, expression, average.landmarks);
     ActiveZone zone;
     zone.expression = expression;
     for (std::size_t v = 0; v < average.grid.size(); ++v)
-        zone.active.push_back(average.grid.inside(v) && drawn.distance(average.grid.vertices_mm[v]) <= 0 ? 1 : 0);
+        zone.active.push_back(
+            average.grid.inside(v) && (!drawn || drawn->distance(average.grid.vertices_mm[v]) <= 0) ? 1 : 0);
     return zone;
 }
 

@@ -14,7 +14,8 @@
 
 namespace mimik::evaluation {
 
-/// From what zones are made: where a truth says that skin moved, where the scans show it, or where the catalogue draws.
+/// From what zones are made: where a truth says that skin moved, where the scans show it, or where the built-in
+/// catalogue draws (never another: shipped_active_zone).
 /// `automatic` is the truth where there is one, else the data.
 enum class ZoneSource : std::uint8_t { automatic, truth, data, catalogue };
 [[nodiscard]] constexpr const char* to_string(ZoneSource source) {
@@ -63,10 +64,11 @@ private:
     std::size_t subjects_ = 0;
 };
 
-/// The same region as the catalogue draws it, whatever the data show.
-[[nodiscard]] ActiveZone active_zone_from_catalogue(const facs::Expression& expression,
-                                                    const preprocessing::AverageFace& average,
-                                                    const facs::FacsCatalogue& catalogue);
+/// The same region as it ships with Mimik: the zones of the built-in catalogue, whatever the data show and whatever
+/// other catalogue methods are learned by. Whoever draws the points must not draw where they are judged. The whole
+/// face, of an expression with a unit that has no shipped zone.
+[[nodiscard]] ActiveZone shipped_active_zone(const facs::Expression& expression,
+                                             const preprocessing::AverageFace& average);
 
 /// Adds what is active in the other zone. The displacement stays the first one's own.
 void unite(ActiveZone& zone, const ActiveZone& other);

@@ -72,9 +72,8 @@ namespace {
 /// Zones of one experiment, and what they are made from.
 class ZoneFinder {
 public:
-    ZoneFinder(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue, ZoneSource source,
-               FailureList& failures)
-        : reader_(reader), catalogue_(catalogue), failures_(failures), source_(source) {
+    ZoneFinder(const PerformanceReader& reader, ZoneSource source, FailureList& failures)
+        : reader_(reader), failures_(failures), source_(source) {
         if (source_ == ZoneSource::automatic) source_ = reader.has_truth() ? ZoneSource::truth : ZoneSource::data;
         if (source_ == ZoneSource::truth && !reader.has_truth())
             throw InputError(fmt::format("zones from the truth are asked for, and {} has none; take those of the data",
@@ -122,7 +121,7 @@ public:
                             expression.code(), motions.largest_mm()));
         const bool drawn = too_little || motions.subjects() == 0 || source_ == ZoneSource::catalogue;
         if (from) *from = drawn ? ZoneSource::catalogue : source_;
-        return drawn ? active_zone_from_catalogue(expression, average(), catalogue_) : motions.zone(expression);
+        return drawn ? shipped_active_zone(expression, average()) : motions.zone(expression);
     }
 
     /// An expression of several AUs has theirs, too: a share of the largest motion would leave out the small ones.
@@ -164,7 +163,6 @@ private:
     }
 
     const PerformanceReader& reader_;
-    const facs::FacsCatalogue& catalogue_;
     FailureList& failures_;
     ZoneSource source_;
     std::optional<MotionOnAverage> on_average_;  // of zones from the data
@@ -202,7 +200,7 @@ Cast gather_cast(const PerformanceReader& reader, const animation::LearningTask&
                  std::span<const ScanId> performances, std::span<const animation::MethodPointer> methods,
                  FailureList& failures, ZoneSource zones) {
     Cast cast{task.expression, {}, {}, LessonBook(reader, task, methods, failures)};
-    ZoneFinder finder(reader, task.catalogue, zones, failures);
+    ZoneFinder finder(reader, zones, failures);
     MotionZone motions(reader.workspace().average());
     base::in_batches(
         performances.size(),

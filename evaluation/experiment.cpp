@@ -123,11 +123,11 @@ private:
         std::vector<std::size_t> targets;
         for (std::size_t t = 0; t < cast.participants.size(); ++t)
             if (plan_.is_target(cast.participants[t].subject)) targets.push_back(t);
-        const bool enough = cast.participants.size() >= fewest_subjects;
+        const bool enough = cast.participants.size() >= plan_.fewest();
         if (!enough)
             failures.add(fmt::format("expression '{}': left out: {} left; an experiment needs {} or more", code,
                                      base::counted(cast.participants.size(), "subject is", "subjects are"),
-                                     fewest_subjects));
+                                     plan_.fewest()));
         store_cast(cast, enough ? targets.size() : 0, failures);
         if (enough) score_targets(cast, targets);
     }
@@ -269,7 +269,8 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
     ExperimentRun run(reader, catalogue, plan, store, watch);
     run.run();
     auto notes = notes_of(store, run);
-    const auto table = scores_of([&](const auto& visit) { store.read(visit); });
+    const auto table = scores_of([&](const auto& visit) { store.read(visit); },
+                                 plan.on_itself ? Pairs::source_on_itself : Pairs::of_two);
     if (table.empty())
         throw InputError(fmt::format("no expression is left to score ({})", fmt::join(notes.failures, "; ")));
     store.finish();
@@ -278,6 +279,7 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
     report.subjects = plan.subjects;
     for (const auto& planned : plan.expressions) report.expressions.push_back(planned.expression);
     report.whole_face = plan.whole_face;
+    report.on_itself = plan.on_itself;
     report.zones = to_string(plan.zones);
     report.zones_by_catalogue = std::move(notes.zones_by_catalogue);
     report.alignment = reader.has_truth() ? "true pose" : "ICP on the stable region";

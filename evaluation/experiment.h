@@ -31,6 +31,7 @@ struct ExperimentReport {
     std::vector<std::string> subjects;
     std::vector<facs::Expression> expressions;
     bool whole_face = true;  ///< whether the whole face was scored
+    bool on_itself = false;  ///< each source was its own target: no figure of one person on another
     std::string zones;       ///< "truth", "data" or "catalogue"
     std::vector<std::string> zones_by_catalogue =
         {};                 ///< expressions whose own zone had to be, though zones says other
@@ -43,7 +44,8 @@ struct ExperimentReport {
     double seconds = 0.0;
 };
 
-/// Scores methods on every ordered pair source -> target of a workspace, as docs/algorithms/scoring.md defines it.
+/// Scores methods on every ordered pair source -> target of a workspace, as docs/algorithms/scoring.md defines it; or,
+/// where the plan says so, each source on itself.
 /// Subjects that must not be shown take part in no case. A case whose method gives no answer counts as doing nothing; a
 /// face that cannot be read takes part in no case; a target whose zone does not see its expressive scan has no case in
 /// any row; all are listed.

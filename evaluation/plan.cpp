@@ -46,6 +46,13 @@ void ExperimentOptions::check() const {
         if (std::count(magnitudes.begin(), magnitudes.begin() + static_cast<std::ptrdiff_t>(k), magnitudes[k]) > 0)
             throw InputError(fmt::format("magnitudes has {} twice; its cases would count twice", magnitudes[k]));
     }
+    if (on_itself)
+        for (const auto& method : methods)
+            if (method->needs() != SourceKind::one_source)
+                throw InputError(
+                    fmt::format("on_itself puts each source on its own face, and method '{}' has no one "
+                                "source; leave it out, or score it on others",
+                                method->name()));
 }
 
 std::size_t ExperimentPlan::units() const {
@@ -61,6 +68,7 @@ bool ExperimentPlan::is_target(const std::string& subject) const {
 
 std::vector<std::size_t> ExperimentPlan::sources_of(std::size_t target,
                                                     std::span<const database::ScanId> participants) const {
+    if (on_itself) return {target};
     std::vector<std::size_t> ring;
     for (std::size_t step = 1; step < participants.size(); ++step) {
         if (max_sources > 0 && ring.size() >= max_sources) break;
@@ -97,6 +105,7 @@ ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const 
     plan.subjects = workspace.shown_subjects();
     plan.whole_face = options.whole_face;
     plan.max_sources = static_cast<std::size_t>(options.max_sources);
+    plan.on_itself = options.on_itself;
     if (options.zones == ZoneSource::truth && !truth)
         throw InputError(fmt::format("zones from the truth need one, and {} has none; give data or catalogue",
                                      workspace.database_root().string()));
@@ -119,16 +128,17 @@ ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const 
     }
     if (options.reference && truth)
         for (const auto kind : {SourceKind::one_source, SourceKind::all_but_target})
-            add(animation::method_by_name(std::string(bound_of(kind))));
+            if (kind == SourceKind::one_source || !options.on_itself)
+                add(animation::method_by_name(std::string(bound_of(kind))));
     for (const auto& expression : options.expressions) {
         (void)catalogue.units(expression);
         PlannedExpression planned{expression, {}};
         for (const auto& subject : plan.subjects)
             if (auto id = workspace.scan_of(subject, expression)) planned.performances.push_back(std::move(*id));
-        if (planned.performances.size() < fewest_subjects)
+        if (planned.performances.size() < plan.fewest())
             plan.left_out.push_back(fmt::format(
                 "expression '{}': left out: {} it; an experiment needs {} or more", expression.code(),
-                base::counted(planned.performances.size(), "subject shows", "subjects show"), fewest_subjects));
+                base::counted(planned.performances.size(), "subject shows", "subjects show"), plan.fewest()));
         else
             plan.expressions.push_back(std::move(planned));
     }

@@ -35,6 +35,9 @@ struct ExperimentOptions {
     std::vector<std::string> targets = {};     ///< who is animated; empty: all
     std::vector<std::string> sources = {};     ///< whose performances are learned from; empty: all
     std::vector<double> magnitudes = {1.0};    ///< each method at each of them; bounds and doing nothing at 1 alone
+    /// Each source as its own target, and nobody else: the thesis' own check of its points (5.5.1). No row of two
+    /// people is made beside it.
+    bool on_itself = false;
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
@@ -47,6 +50,7 @@ struct ExperimentOptions {
         visit("targets", self.targets);
         visit("sources", self.sources);
         visit("magnitudes", self.magnitudes);
+        visit("on_itself", self.on_itself);
     }
     void check() const;  ///< throws InputError
     /// AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 on the left.
@@ -72,21 +76,25 @@ struct ExperimentPlan {
     std::set<std::string> targets = {};        ///< who is animated; empty: all
     std::set<std::string> sources = {};        ///< whose performances are learned from; empty: all
     std::vector<double> magnitudes = {1.0};
+    bool on_itself = false;  ///< each source as its own target
 
     [[nodiscard]] std::size_t units() const;
+    /// How many must show an expression.
+    [[nodiscard]] std::size_t fewest() const { return on_itself ? 1 : fewest_subjects; }
     [[nodiscard]] bool is_target(const std::string& subject) const;
     /// The participants whose performances are learned from for one target: the ring that begins after it, of those who
-    /// are sources.
+    /// are sources; the target alone where each source is its own.
     [[nodiscard]] std::vector<std::size_t> sources_of(std::size_t target,
                                                       std::span<const database::ScanId> participants) const;
     /// At which a method is scored: bounds and doing nothing at 1 alone, the others at each.
     [[nodiscard]] std::vector<double> magnitudes_of(const animation::Method& method) const;
 };
 
-/// An expression that fewer than 3 subjects show is left out and listed.
+/// An expression that fewer than 3 subjects show (1 where each is its own target) is left out and listed.
 /// @param truth  whether the database has one
-/// @throws InputError for bad options, zones or methods that need a truth where there is none, an expression that the
-/// catalogue lacks, a target or source that may not be shown or is none of the workspace, or if nothing is left.
+/// @throws InputError for bad options, a mean where each source is its own target, zones or methods that need a truth
+/// where there is none, an expression that the catalogue lacks, a target or source that may not be shown or is none of
+/// the workspace, or if nothing is left.
 [[nodiscard]] ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace,
                                              const facs::FacsCatalogue& catalogue, const ExperimentOptions& options,
                                              bool truth);

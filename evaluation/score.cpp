@@ -106,7 +106,7 @@ private:
 
 }  // namespace
 
-ScoreTable scores_of(const std::function<void(const std::function<void(const CaseRow&)>&)>& read) {
+ScoreTable scores_of(const std::function<void(const std::function<void(const CaseRow&)>&)>& read, Pairs pairs) {
     std::map<std::string, std::map<std::string, Sums>> sums;
     CaseKey key;
     CaseNumbers numbers, nothing;
@@ -124,6 +124,8 @@ ScoreTable scores_of(const std::function<void(const std::function<void(const Cas
     };
     read([&](const CaseRow& row) {
         if (row.estimator == run_estimator) return;
+        const bool itself = row.key.source == row.key.target;
+        if (row.key.method != baseline_method && itself != (pairs == Pairs::source_on_itself)) return;
         if (any && row.key == key) return numbers.take(row);
         close_case();
         key = row.key;

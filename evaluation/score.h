@@ -55,11 +55,19 @@ struct Score {
     Faults faults = {};
 };
 
+/// Which rows make a score. A source that is its own target never stands beside others in a mean: it knows its face.
+enum class Pairs {
+    of_two,           ///< source and target are two people, or there is no source
+    source_on_itself  ///< source and target are one; doing nothing as ever
+};
+
 /// By method (variant_of: "mean", "mean@0.8"), then by expression.
 using ScoreTable = std::map<std::string, std::map<std::string, Score>>;
 
 /// A pure function of rows: `read` hands them over in the order in which they were stored, those of one case one after
-/// another and "nothing" before the other methods of its target. Sums are made in that order.
-[[nodiscard]] ScoreTable scores_of(const std::function<void(const std::function<void(const CaseRow&)>&)>& read);
+/// another and "nothing" before the other methods of its target. Sums are made in that order. Rows of the other kind
+/// of pairs are passed over.
+[[nodiscard]] ScoreTable scores_of(const std::function<void(const std::function<void(const CaseRow&)>&)>& read,
+                                   Pairs pairs = Pairs::of_two);
 
 }  // namespace mimik::evaluation

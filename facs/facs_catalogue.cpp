@@ -28,6 +28,9 @@ namespace {
 constexpr std::string_view embedded_catalogue =
 #include "facs/facs_toml.inc"
     ;
+constexpr std::string_view embedded_thesis_catalogue =
+#include "facs/facs_thesis_toml.inc"
+    ;
 
 std::string upper(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -265,7 +268,7 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
     });
     std::set<std::string> names;
     std::vector<std::pair<std::string, geometry::Point>> placed;
-    bool muscle_point = false;
+    bool moving_point = false;
     reader.tables(table, "points", true, [&](const toml::table& entry) {
         reader.only_keys(entry, {"name", "kind", "at", "offset"});
         if (unit.points.size() == most_points)
@@ -273,10 +276,12 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
         CataloguePoint point;
         point.name = reader.text(entry, "name");
         const auto kind = reader.text(entry, "kind");
-        if (kind != "muscle" && kind != "wrinkle")
-            reader.error(entry, fmt::format("kind {} is neither muscle nor wrinkle", base::in_quotes(kind)));
-        point.kind = kind == "wrinkle" ? ControlKind::wrinkle : ControlKind::muscle;
-        muscle_point = muscle_point || point.kind == ControlKind::muscle;
+        if (kind != "muscle" && kind != "wrinkle" && kind != "carried")
+            reader.error(entry, fmt::format("kind {} is none of muscle, carried, wrinkle", base::in_quotes(kind)));
+        point.kind = kind == "wrinkle"   ? ControlKind::wrinkle
+                     : kind == "carried" ? ControlKind::carried
+                                         : ControlKind::muscle;
+        moving_point = moving_point || point.kind != ControlKind::wrinkle;
         const auto errors_before = reader.errors();
         point.placement = reader.placement(entry);
         if (reader.errors() == errors_before) check_place(reader, entry, point, placed);
@@ -284,7 +289,7 @@ ActionUnit read_unit(Reader& reader, const toml::table& table) {
             reader.error(entry, fmt::format("point {} stands twice in AU{}", base::in_quotes(point.name), unit.number));
         unit.points.push_back(std::move(point));
     });
-    if (!muscle_point) reader.error(table, fmt::format("AU{} has no muscle point", unit.number));
+    if (!moving_point) reader.error(table, fmt::format("AU{} has no muscle point and no carried one", unit.number));
     if (unit.zone.empty()) reader.error(table, fmt::format("AU{} has no zone", unit.number));
     return unit;
 }
@@ -314,11 +319,12 @@ void read_document(Reader& reader, const toml::table& document, Parsed& parsed) 
         if (!numbers.insert(parsed.units.back().number).second)
             reader.error(table, fmt::format("AU{} stands twice", parsed.units.back().number));
     });
-    std::set<std::string> emotions;
+    std::set<std::pair<std::string, std::string>> emotions;  // set and name
     reader.tables(document, "emotion", false, [&](const toml::table& table) {
-        reader.only_keys(table, {"name", "units"});
+        reader.only_keys(table, {"name", "units", "set"});
         Emotion emotion{upper(reader.text(table, "name")), {}};
-        if (!emotion.name.empty() && !emotions.insert(emotion.name).second)
+        if (table.get("set")) emotion.set = reader.text(table, "set");
+        if (!emotion.name.empty() && !emotions.insert({emotion.set, emotion.name}).second)
             reader.error(table, fmt::format("emotion {} stands twice", base::in_quotes(emotion.name)));
         if (const auto* list = table["units"].as_array())
             for (const auto& item : *list) {
@@ -361,6 +367,8 @@ std::string_view to_string(ControlKind kind) {
     switch (kind) {
         case ControlKind::muscle:
             return "muscle";
+        case ControlKind::carried:
+            return "carried";
         case ControlKind::wrinkle:
             return "wrinkle";
         case ControlKind::coverage:
@@ -372,9 +380,11 @@ std::string_view to_string(ControlKind kind) {
 }
 
 ControlKind parse_control_kind(const std::string& text) {
-    for (const auto kind : {ControlKind::muscle, ControlKind::wrinkle, ControlKind::coverage, ControlKind::anchor})
+    for (const auto kind :
+         {ControlKind::muscle, ControlKind::carried, ControlKind::wrinkle, ControlKind::coverage, ControlKind::anchor})
         if (text == to_string(kind)) return kind;
-    throw InputError(fmt::format("kind {} is none of muscle, wrinkle, coverage, anchor", base::in_quotes(text)));
+    throw InputError(
+        fmt::format("kind {} is none of muscle, carried, wrinkle, coverage, anchor", base::in_quotes(text)));
 }
 
 namespace {
@@ -402,9 +412,28 @@ FacsCatalogue::FacsCatalogue(Sampling sampling, std::vector<ActionUnit> units, s
                              std::string name, std::string content_hash)
     : sampling_(sampling),
       units_(std::move(units)),
-      emotions_(std::move(emotions)),
+      all_emotions_(std::move(emotions)),
       name_(std::move(name)),
-      content_hash_(std::move(content_hash)) {}
+      content_hash_(std::move(content_hash)) {
+    for (const auto& emotion : all_emotions_)
+        if (emotion.set == usual_emotion_set) emotions_.push_back(emotion);
+}
+
+FacsCatalogue FacsCatalogue::with_emotions(const std::string& set) const {
+    auto other = *this;
+    other.emotions_.clear();
+    std::set<std::string> sets;
+    for (const auto& emotion : all_emotions_) {
+        sets.insert(emotion.set);
+        if (emotion.set == set) other.emotions_.push_back(emotion);
+    }
+    if (other.emotions_.empty())
+        throw InputError(
+            fmt::format("emotions '{}' are not in the {}; there are: {}", set, name_, fmt::join(sets, ", ")));
+    // A model of an emotion was made by its units: those of another set are not the same.
+    if (set != usual_emotion_set && !content_hash_.empty()) other.content_hash_ = content_hash_ + "-" + set;
+    return other;
+}
 
 const ActionUnit* FacsCatalogue::find(int number) const {
     const auto it =
@@ -493,6 +522,14 @@ std::string_view builtin_catalogue_text() { return embedded_catalogue; }
 
 const FacsCatalogue& builtin_catalogue() {
     static const FacsCatalogue catalogue = parse_catalogue(std::string(embedded_catalogue), "built-in catalogue");
+    return catalogue;
+}
+
+std::string_view thesis_catalogue_text() { return embedded_thesis_catalogue; }
+
+const FacsCatalogue& thesis_catalogue() {
+    static const FacsCatalogue catalogue =
+        parse_catalogue(std::string(embedded_thesis_catalogue), "built-in catalogue of the thesis");
     return catalogue;
 }
 

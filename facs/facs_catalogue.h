@@ -13,7 +13,8 @@
 namespace mimik::facs {
 
 enum class ControlKind {
-    muscle,    ///< where muscle fibres lie (thesis 5.5.1)
+    muscle,    ///< on the muscle that the AU names (thesis 5.5.1)
+    carried,   ///< lids, lips, cheeks: what the muscle takes along, without lying there
     wrinkle,   ///< where skin folds or bulges (thesis 5.5.2)
     coverage,  ///< fills the AU's zone evenly
     anchor     ///< holds still
@@ -62,7 +63,9 @@ struct Sampling {
 struct Emotion {
     std::string name;               ///< "HAPPY"
     std::vector<int> action_units;  ///< of the prototype
+    std::string set = "emfacs";     ///< to which list of prototypes it belongs: "emfacs", "thesis" (its Table 3-3)
 };
+inline constexpr const char* usual_emotion_set = "emfacs";
 
 /// One AU on one side or both: what an expression is made of.
 struct SidedUnit {
@@ -79,7 +82,10 @@ public:
     [[nodiscard]] const std::string& content_hash() const { return content_hash_; }  ///< of its text
     [[nodiscard]] const Sampling& sampling() const { return sampling_; }
     [[nodiscard]] const std::vector<ActionUnit>& action_units() const { return units_; }
-    [[nodiscard]] const std::vector<Emotion>& emotions() const { return emotions_; }
+    [[nodiscard]] const std::vector<Emotion>& emotions() const { return emotions_; }  ///< of the chosen set
+    [[nodiscard]] const std::vector<Emotion>& all_emotions() const { return all_emotions_; }
+    /// The same with the prototypes of another set. @throws InputError listing the sets there are.
+    [[nodiscard]] FacsCatalogue with_emotions(const std::string& set) const;
     [[nodiscard]] const ActionUnit* find(int number) const;
     /// The expression that a text names, in every way in which Mimik reads or writes one: "12", "AU12", "LFAU_12",
     /// "12l", "AU12_L", "12LW" (low intensity), "AU12+AU15", "happy", "joy". An emotion comes with its units.
@@ -97,7 +103,7 @@ public:
 private:
     Sampling sampling_;
     std::vector<ActionUnit> units_;
-    std::vector<Emotion> emotions_;
+    std::vector<Emotion> emotions_, all_emotions_;
     std::string name_, content_hash_;
 };
 
@@ -110,6 +116,9 @@ private:
 /// The catalogue that Mimik ships (facs/facs.toml, embedded).
 [[nodiscard]] const FacsCatalogue& builtin_catalogue();
 [[nodiscard]] std::string_view builtin_catalogue_text();
+/// The same with the points that 'mimik tune' found for the thesis method (facs/facs_thesis.toml, embedded).
+[[nodiscard]] const FacsCatalogue& thesis_catalogue();
+[[nodiscard]] std::string_view thesis_catalogue_text();
 
 /// What the linter found, one line each: "facs.toml:12: error: ...".
 struct LintFinding {

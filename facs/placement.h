@@ -18,6 +18,11 @@ struct Placement {
     double up = 0.0;
 };
 
+/// Whether its landmarks all stand on the midline and it has no lateral offset: it stands once.
+[[nodiscard]] bool on_midline(const Placement& placement);
+/// The landmarks of a placement on one side that a face lacks, by names that landmarks have.
+[[nodiscard]] std::vector<std::string> missing_marks(const Placement& placement, const geometry::Landmarks& landmarks,
+                                                     Side side);
 /// Position of a placement on one side (left or right). @throws InputError naming a landmark that is missing.
 [[nodiscard]] geometry::Point place(const Placement& placement, const geometry::Landmarks& landmarks, Side side);
 

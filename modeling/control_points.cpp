@@ -63,14 +63,15 @@ PlacedControls place_controls(const facs::FacsCatalogue& catalogue, const facs::
     for (const auto& sided : units)
         for (const auto& point : sided.unit->points)
             for (const auto side : facs::sides_of(sided)) {
-                const bool midline =
-                    std::all_of(point.placement.at.begin(), point.placement.at.end(),
-                                [&](const auto& term) { return landmarks.find(term.first) != nullptr; }) &&
-                    point.placement.lateral == 0.0;
+                const bool midline = facs::on_midline(point.placement);
                 if (midline && side == Side::right && sided.side == Side::both) continue;
-                ControlPoint control{
-                    fmt::format("AU{}.{}{}", sided.unit->number, point.name, midline ? "" : facs::side_suffix(side)),
-                    point.kind, facs::place(point.placement, landmarks, side)};
+                const auto name =
+                    fmt::format("AU{}.{}{}", sided.unit->number, point.name, midline ? "" : facs::side_suffix(side));
+                if (const auto missing = facs::missing_marks(point.placement, landmarks, side); !missing.empty()) {
+                    placed.left_out.push_back(fmt::format("{}: landmark '{}' is missing", name, missing.front()));
+                    continue;
+                }
+                ControlPoint control{name, point.kind, facs::place(point.placement, landmarks, side)};
                 if (!drop_on_surface(surface, control.position_mm)) {
                     placed.left_out.push_back(control.name + ": off the face");
                 } else if (const auto* other = near(placed.controls, control.position_mm, 0.3 * apart_mm)) {
@@ -80,6 +81,7 @@ PlacedControls place_controls(const facs::FacsCatalogue& catalogue, const facs::
                 }
             }
 
+    if (!kinds.coverage && !kinds.anchors) return placed;
     const facs::ExpressionZone zone(catalogue, expression, landmarks);
     const Point origin = landmarks.position_mm("nose_tip");
     const double reach_mm = 2.2 * unit;

@@ -20,8 +20,8 @@ struct ControlPoint {
 struct PlacedControls {
     std::vector<ControlPoint> controls;  ///< muscle, wrinkle and coverage points
     std::vector<ControlPoint> anchors;
-    /// Catalogue points by name with the reason (off the face, on top of another); coverage points by their number, and
-    /// only where most of them meet no surface: their lattice reaches beyond every face's rim.
+    /// Catalogue points by name with the reason (off the face, on top of another, a landmark missing); coverage points
+    /// by their number, and only where most of them meet no surface: their lattice reaches beyond every face's rim.
     std::vector<std::string> left_out;
 };
 

@@ -239,21 +239,48 @@ void ExpressionGauge::keep_spread_points(ExpressionModel& model) const {
     model.dense.reset();
 }
 
-ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expressive,
-                                         std::vector<FollowedPoint>* followed) const {
-    const auto& options = options_;
-    const geometry::ThinPlateSplineOptions spline{.kernel = options.kernel, .smoothing = options.smoothing};
-    ExpressionModel model = begun_;
-    model.sources = {neutral.id.name(), expressive.id.name()};
+struct NormalisedSource::Parts {
+    std::string neutral, expressive;  // their scans' names
+    geometry::Transform to_average, to_average_too;
+    Landmarks neutral_marks, expressive_marks;
+    NormalisedSurface neutral_surface, expressive_surface;
+};
 
+NormalisedSource::NormalisedSource(const Face& neutral, const Face& expressive, const ModelOptions& options) {
     const auto& to_average = average_from_scan(neutral, options.normalisation);
     const auto& to_average_too = average_from_scan(expressive, options.normalisation);
-    const auto neutral_marks =
-        geometry::transformed(options.snap_to_vertices ? neutral.snapped_landmarks : neutral.landmarks, to_average);
-    const auto expressive_marks = geometry::transformed(
-        options.snap_to_vertices ? expressive.snapped_landmarks : expressive.landmarks, to_average_too);
-    NormalisedSurface neutral_surface(neutral.grid, to_average, geometry::BridgedVertices::keep);
-    NormalisedSurface expressive_surface(expressive.grid, to_average_too, geometry::BridgedVertices::keep);
+    const auto marks = [&](const Face& face) {
+        return options.snap_to_vertices ? face.snapped_landmarks : face.landmarks;
+    };
+    parts_.reset(new Parts{neutral.id.name(), expressive.id.name(), to_average, to_average_too,
+                           geometry::transformed(marks(neutral), to_average),
+                           geometry::transformed(marks(expressive), to_average_too),
+                           NormalisedSurface(neutral.grid, to_average, geometry::BridgedVertices::keep),
+                           NormalisedSurface(expressive.grid, to_average_too, geometry::BridgedVertices::keep)});
+}
+
+NormalisedSource::~NormalisedSource() = default;
+NormalisedSource::NormalisedSource(NormalisedSource&&) noexcept = default;
+
+ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expressive,
+                                         std::vector<FollowedPoint>* followed) const {
+    NormalisedSource source(neutral, expressive, options_);
+    auto model = measure(source, followed);
+    if (registrations_) {
+        model.dense = {registrations_, registrations_->motion(neutral, expressive).motion_mm};
+        if (expressive.id.side() == facs::Side::both) keep_side(*model.dense, expression_);
+        if (options_.spread_points > 0) keep_spread_points(model);
+    }
+    return model;
+}
+
+ExpressionModel ExpressionGauge::measure(NormalisedSource& source, std::vector<FollowedPoint>* followed) const {
+    const auto& options = options_;
+    const geometry::ThinPlateSplineOptions spline{.kernel = options.kernel, .smoothing = options.smoothing};
+    auto& [neutral_name, expressive_name, to_average, to_average_too, neutral_marks, expressive_marks, neutral_surface,
+           expressive_surface] = *source.parts_;
+    ExpressionModel model = begun_;
+    model.sources = {neutral_name, expressive_name};
 
     // Where the points stand on the model's own face, and where on this source's neutral face.
     Placed placed;
@@ -277,18 +304,19 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
         }
         for (const auto& anchor : placed.anchors) anchors_on_source.push_back(anchor.position_mm);
     }
-    model.mouth_width_mm = geometry::mouth_width_mm(model.landmarks);
+    // Eq. 5.8 needs the mouth of a source that moves the lower face; one that moves the upper does without.
+    const bool mouth = model.landmarks.find("mouth_corner_left") && model.landmarks.find("mouth_corner_right");
+    model.mouth_width_mm =
+        geometry::mouth_width_mm(mouth || model.moves_lower_face ? model.landmarks : average_.landmarks);
     model.left_out = placed.left_out;
 
     geometry::LandmarkPairs pairs(neutral_marks, expressive_marks);
     for (const auto& merged : pairs.merged())
-        model.left_out.push_back(fmt::format("{}: landmark {}", neutral.id.name(), merged));
+        model.left_out.push_back(fmt::format("{}: landmark {}", neutral_name, merged));
     for (const auto& name : pairs.only_in_from())
-        model.left_out.push_back(
-            fmt::format("{}: landmark '{}' is not on {}", neutral.id.name(), name, expressive.id.name()));
+        model.left_out.push_back(fmt::format("{}: landmark '{}' is not on {}", neutral_name, name, expressive_name));
     for (const auto& name : pairs.only_in_to())
-        model.left_out.push_back(
-            fmt::format("{}: landmark '{}' is not on {}", expressive.id.name(), name, neutral.id.name()));
+        model.left_out.push_back(fmt::format("{}: landmark '{}' is not on {}", expressive_name, name, neutral_name));
     for (std::size_t k = 0; options.anchors_in_both_maps && k < placed.anchors.size(); ++k)
         pairs.add(placed.anchors[k].name, anchors_on_source[k], anchors_on_source[k]);
     const auto expressive_from_neutral = pairs.fit(spline);
@@ -311,11 +339,6 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     for (const auto* held : {&placed.anchors, &placed.still})
         for (const auto& anchor : *held)
             model.points.push_back({anchor.name, facs::ControlKind::anchor, anchor.position_mm, Vector::Zero(), 0.0});
-    if (registrations_) {
-        model.dense = {registrations_, registrations_->motion(neutral, expressive).motion_mm};
-        if (expressive.id.side() == facs::Side::both) keep_side(*model.dense, expression_);
-        if (options.spread_points > 0) keep_spread_points(model);
-    }
     return model;
 }
 

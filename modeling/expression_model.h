@@ -85,7 +85,7 @@ struct ModelOptions {
     }
     /// Control points alone, as they measured best.
     [[nodiscard]] static ModelOptions sparse();
-    /// The thesis as printed: affine frame, r^2 ln r^2, no anchors, muscle and wrinkle points, nearest vertices.
+    /// The equations of the thesis: affine frame, r^2 ln r^2, no anchors, no coverage points, nearest vertices.
     [[nodiscard]] static ModelOptions thesis();
     [[nodiscard]] bool operator==(const ModelOptions&) const = default;
     void check() const;
@@ -143,6 +143,22 @@ struct FollowedPoint {
     geometry::Point expressive_mm = geometry::Point::Zero();  ///< scanner frame of the expressive scan
 };
 
+/// Both scans of a source in the frame of a model, with what is searched in them: made once by those who measure the
+/// same source again and again. For one thread at a time.
+class NormalisedSource {
+public:
+    /// @param options  the frame and whether points go to vertices; what is measured later must have the same
+    NormalisedSource(const preprocessing::Face& neutral, const preprocessing::Face& expressive,
+                     const ModelOptions& options);
+    ~NormalisedSource();
+    NormalisedSource(NormalisedSource&&) noexcept;
+
+private:
+    friend class ExpressionGauge;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
 /// Measures one expression on source after source: places its points on the source's neutral face, follows them to its
 /// expressive scan (landmark spline of Eq. 5.5, then the nearest point of the expressive surface) and takes the
 /// differences (Eq. 5.6). What all sources share, the points on the average face, is made once. Keeps references to
@@ -159,6 +175,9 @@ public:
     /// From any thread. @throws InputError if landmarks are missing; NumericalError from the spline or of a scan that
     /// the template does not come to lie on.
     [[nodiscard]] ExpressionModel measure(const preprocessing::Face& neutral, const preprocessing::Face& expressive,
+                                          std::vector<FollowedPoint>* followed = nullptr) const;
+    /// The same of a source that was made ready; a sparse model alone.
+    [[nodiscard]] ExpressionModel measure(NormalisedSource& source,
                                           std::vector<FollowedPoint>* followed = nullptr) const;
 
 private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <set>
 
 #include <fmt/format.h>
@@ -140,13 +141,14 @@ Point centre_of(const geometry::QuadGrid& grid, geometry::BridgedVertices bridge
     return geometry::box_of(geometry::to_mesh(grid, bridged).vertices_mm).center();
 }
 
-/// `name,x,y,z,kind` of muscle and wrinkle points; coverage points in a file of their own, since they stand for no
-/// muscle. @return whether there was any.
-bool write_controls(const fs::path& file, const std::vector<NamedControl>& controls, bool coverage) {
+/// `name,x,y,z,kind` of the points of some kinds: muscle and wrinkle points as the thesis shows them (Figs 5-8, 5-9);
+/// those that lie on no muscle in files of their own. @return whether there was any.
+bool write_controls(const fs::path& file, const std::vector<NamedControl>& controls,
+                    std::initializer_list<ControlKind> kinds) {
     std::string text = "name,x,y,z,kind\n";
     bool any = false;
     for (const auto& control : controls) {
-        if (control.kind == ControlKind::anchor || (control.kind == ControlKind::coverage) != coverage) continue;
+        if (std::find(kinds.begin(), kinds.end(), control.kind) == kinds.end()) continue;
         any = true;
         text += fmt::format("{},{:.17g},{:.17g},{:.17g},{}\n", base::csv_field(control.name), control.position_mm.x(),
                             control.position_mm.y(), control.position_mm.z(), facs::to_string(control.kind));
@@ -188,10 +190,14 @@ public:
     }
     void add_controls(PanelDescription& panel, const std::vector<NamedControl>& controls,
                       const std::string& stem) const {
-        if (write_controls(file(stem + ".csv"), controls, false)) panel.controls = file(stem + ".csv");
+        if (write_controls(file(stem + ".csv"), controls, {ControlKind::muscle, ControlKind::wrinkle}))
+            panel.controls = file(stem + ".csv");
+        const auto carried = file(stem + "_carried.csv");
+        if (write_controls(carried, controls, {ControlKind::carried}))
+            panel.markers.push_back({carried, "carried controls", {0xb0, 0x70, 0xc0}, 1.6});
         // Smaller and paler than the catalogue's own points: there are many, and they only fill the zone.
         const auto coverage = file(stem + "_coverage.csv");
-        if (write_controls(coverage, controls, true))
+        if (write_controls(coverage, controls, {ControlKind::coverage}))
             panel.markers.push_back({coverage, "coverage controls", {0x8c, 0x8c, 0x8c}, 1.2});
     }
     /// @return the file's path
@@ -476,7 +482,7 @@ ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsC
                                          const ComparisonRequest& request, const fs::path& folder) {
     const auto scans = compared_scans(workspace, catalogue, request);
     ComparisonFigure figure;
-    const auto zone = evaluation::active_zone_from_catalogue(request.expression, workspace.average(), catalogue);
+    const auto zone = evaluation::shipped_active_zone(request.expression, workspace.average());
 
     std::vector<Person> people;
     ExpressionModel model;

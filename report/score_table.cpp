@@ -19,7 +19,9 @@ std::string label(const facs::Expression& expression) {
     return code.front() >= '0' && code.front() <= '9' ? "AU" + code : code;
 }
 
-const char* kind_name(animation::SourceKind kind) { return animation::to_string(kind); }
+std::string kind_name(const evaluation::MethodScores& row, bool on_itself) {
+    return on_itself && row.kind == animation::SourceKind::one_source ? "itself" : animation::to_string(row.kind);
+}
 
 struct Pooled {
     std::size_t cases = 0, worse = 0;
@@ -61,14 +63,15 @@ std::string header_of(const evaluation::ExperimentReport& report, const std::vec
     return text + "\n" + rule + "\n";
 }
 
-std::string begin_row(const evaluation::MethodScores& row) {
-    return fmt::format("| {} | {} |", row.reference ? "*" + row.method + "*" : row.method, kind_name(row.kind));
+std::string begin_row(const evaluation::ExperimentReport& report, const evaluation::MethodScores& row) {
+    return fmt::format("| {} | {} |", row.reference ? "*" + row.method + "*" : row.method,
+                       kind_name(row, report.on_itself));
 }
 
 std::string explained_table(const evaluation::ExperimentReport& report) {
     std::string text = header_of(report, {"mean", "median case", "share", "whole face", "worse than nothing"});
     for (const auto& row : report.rows) {
-        text += begin_row(row);
+        text += begin_row(report, row);
         for (const auto& expression : report.expressions)
             text += fmt::format(" {} |", text_of(row.per_expression.at(expression.code()).explained, 2));
         const auto total = pooled(row);
@@ -99,7 +102,7 @@ std::string error_table(const evaluation::ExperimentReport& report) {
     }
     text += "\n";
     for (const auto& row : report.rows) {
-        text += begin_row(row);
+        text += begin_row(report, row);
         for (const auto& expression : report.expressions) {
             const auto& score = row.per_expression.at(expression.code());
             text += error_cell(score.error_mm, score.true_error_mm);
@@ -136,7 +139,7 @@ std::string faults_table(const evaluation::ExperimentReport& report) {
                             text_of(faults.lips_over_hole, 1), text_of(faults.face_over_hole, 1));
     };
     add("| doing nothing | |", report.nothing);
-    for (const auto& row : report.rows) add(begin_row(row), row);
+    for (const auto& row : report.rows) add(begin_row(report, row), row);
     return text;
 }
 
@@ -161,11 +164,11 @@ nlohmann::json json_of(const evaluation::Score& s) {
     return document;
 }
 
-nlohmann::json json_of(const evaluation::MethodScores& row) {
+nlohmann::json json_of(const evaluation::MethodScores& row, bool on_itself) {
     nlohmann::json scores;
     for (const auto& [expression, score] : row.per_expression) scores[expression] = json_of(score);
     nlohmann::json document = {{"method", row.method},
-                               {"kind", kind_name(row.kind)},
+                               {"kind", kind_name(row, on_itself)},
                                {"reference", row.reference},
                                {"explained", json_of(row.explained)},
                                {"explained_median", json_of(row.explained_median)},
@@ -179,7 +182,10 @@ nlohmann::json json_of(const evaluation::MethodScores& row) {
 }  // namespace
 
 std::string to_markdown(const evaluation::ExperimentReport& report) {
-    std::string text = fmt::format(
+    std::string text = report.on_itself ? "Each source on itself: how well a model says what it was made from, and no "
+                                          "figure of one person on another.\n\n"
+                                        : "";
+    text += fmt::format(
         "Explained fraction: 1 - error / error of doing nothing, mean unsigned distance in the active zone to the real "
         "expressive scan ({} subjects, zones from the {}{}, alignment by {}).\n\n",
         report.subjects.size(), report.zones,
@@ -206,12 +212,12 @@ std::string to_csv(const evaluation::ExperimentReport& report) {
     for (const auto& row : report.rows)
         for (const auto& expression : report.expressions) {
             const auto& s = row.per_expression.at(expression.code());
-            text += fmt::format("\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{}", row.method, kind_name(row.kind),
-                                row.reference ? 1 : 0, expression.code(), text_of(s.explained, digits),
-                                text_of(s.explained_median, digits), text_of(s.explained_whole, digits),
-                                text_of(s.error_mm, digits), text_of(s.nothing_mm, digits),
-                                text_of(s.true_error_mm, digits), text_of(s.nothing_true_mm, digits),
-                                text_of(s.largest_step_mm, digits), s.cases, s.worse_than_nothing, s.left_out_vertices);
+            text += fmt::format(
+                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{}", row.method, kind_name(row, report.on_itself),
+                row.reference ? 1 : 0, expression.code(), text_of(s.explained, digits),
+                text_of(s.explained_median, digits), text_of(s.explained_whole, digits), text_of(s.error_mm, digits),
+                text_of(s.nothing_mm, digits), text_of(s.true_error_mm, digits), text_of(s.nothing_true_mm, digits),
+                text_of(s.largest_step_mm, digits), s.cases, s.worse_than_nothing, s.left_out_vertices);
             evaluation::Faults::each_field(s.faults, [&](const char*, const std::optional<double>& value) {
                 text += "," + text_of(value, digits);
             });
@@ -222,10 +228,10 @@ std::string to_csv(const evaluation::ExperimentReport& report) {
 
 std::string to_json(const evaluation::ExperimentReport& report) {
     auto rows = nlohmann::json::array();
-    for (const auto& row : report.rows) rows.push_back(json_of(row));
+    for (const auto& row : report.rows) rows.push_back(json_of(row, report.on_itself));
     std::vector<std::string> expressions;
     for (const auto& expression : report.expressions) expressions.push_back(expression.code());
-    return io::json_text(
+    nlohmann::json document =
         nlohmann::json{{"schema", 1},
                        {"subjects", report.subjects},
                        {"expressions", expressions},
@@ -242,7 +248,9 @@ std::string to_json(const evaluation::ExperimentReport& report) {
                                                                {"scanner", report.truth->scanner}}
                                               : nlohmann::json()},
                        {"rows", rows},
-                       {"failures", report.failures}});
+                       {"failures", report.failures}};
+    if (report.on_itself) document["pairs"] = "source on itself";
+    return io::json_text(document);
 }
 
 }  // namespace mimik::report

@@ -75,8 +75,22 @@ struct Emotion {
     std::map<int, double> strengths;
 };
 
+// Table 3-3 of the thesis (p. 37); the same strengths where an AU is in both sets.
+const std::vector<Emotion>& thesis_emotions() {
+    static const std::vector<Emotion> all = {
+        {"ANGER", {{4, 1.0}, {5, .3}, {7, .6}, {23, .9}, {25, .5}}},
+        {"DISGUST", {{9, .8}, {17, .6}}},
+        {"FEAR", {{1, .8}, {2, .5}, {4, .6}, {5, .8}, {20, .7}, {27, .6}}},
+        {"HAPPY", {{6, .7}, {12, 1.0}}},
+        {"SADNESS", {{1, .8}, {4, .5}, {15, .9}}},
+        {"SURPRISE", {{1, .9}, {2, .9}, {5, .7}, {26, 1.0}}},
+    };
+    return all;
+}
+
 // Prototypes of the FACS manual and EMFACS; strengths so that no single part outshines its action unit.
-const std::vector<Emotion>& emotions() {
+const std::vector<Emotion>& emotions(std::string_view set = "emfacs") {
+    if (set == "thesis") return thesis_emotions();
     static const std::vector<Emotion> all = {
         {"ANGER", {{4, 1.0}, {5, .3}, {7, .6}, {23, .9}}},
         {"DISGUST", {{9, .8}, {10, .6}, {17, .5}}},
@@ -132,7 +146,9 @@ bool several_numbers(std::string_view text) {
 
 }  // namespace
 
-PosedExpression make_expression(std::string_view text) {
+bool is_emotion_set(std::string_view name) { return name == "emfacs" || name == "thesis"; }
+
+PosedExpression make_expression(std::string_view text, std::string_view set) {
     const auto parsed = facs::parse_expression(text);
     const auto code = parsed && !several_numbers(text) ? parsed->code() : std::string(text);
     PosedExpression expression;
@@ -141,7 +157,7 @@ PosedExpression make_expression(std::string_view text) {
         expression.group = "N";
         return expression;
     }
-    for (const auto& emotion : emotions()) {
+    for (const auto& emotion : emotions(set)) {
         if (code != emotion.code) continue;
         expression.group = "E";
         expression.action_units = emotion.strengths;
@@ -179,7 +195,7 @@ PosedExpression make_expression(std::string_view text) {
     return expression;
 }
 
-std::vector<PosedExpression> make_expressions(std::string_view list) {
+std::vector<PosedExpression> make_expressions(std::string_view list, std::string_view emotion_set) {
     static const std::map<std::string_view, std::string_view> groups = {
         {"thesis", "1,2,4,12,14,15,17,20,12L,12R"},
         {"emotions", "ANGER,DISGUST,FEAR,HAPPY,SADNESS,SURPRISE"},
@@ -196,7 +212,7 @@ std::vector<PosedExpression> make_expressions(std::string_view list) {
                 self(self, group->second);
                 continue;
             }
-            PosedExpression made = make_expression(word);
+            PosedExpression made = make_expression(word, emotion_set);
             const bool there = std::any_of(expressions.begin(), expressions.end(), [&](const PosedExpression& e) {
                 return e.group == made.group && e.code == made.code;
             });

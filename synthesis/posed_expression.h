@@ -28,11 +28,14 @@ struct PosedExpression {
 
 /// As facs::parse_expression reads it, in any case: "12", "AU12_L", "LFAU_12L", "HAPPY", "E_ANGER".
 /// @throws InputError listing the codes there are.
-[[nodiscard]] PosedExpression make_expression(std::string_view code);
+/// @param emotions  the set of prototypes: "emfacs", or "thesis" (its Table 3-3)
+[[nodiscard]] PosedExpression make_expression(std::string_view code, std::string_view emotions = "emfacs");
 
 /// "thesis" = AUs 1 2 4 12 14 15 17 20, 12L, 12R; "emotions"; "further" = AUs 5 6 7 9 10 16 18 22-28 34 43; "all"; or a
 /// single code. Commas separate; each expression once, in the order asked for.
-[[nodiscard]] std::vector<PosedExpression> make_expressions(std::string_view list);
+[[nodiscard]] std::vector<PosedExpression> make_expressions(std::string_view list,
+                                                            std::string_view emotions = "emfacs");
+[[nodiscard]] bool is_emotion_set(std::string_view name);
 
 /// Main shapes of the expression that the model lacks; an expression with such a shape cannot be made.
 [[nodiscard]] std::vector<std::string> missing_shapes(const PosedExpression& expression, const FaceModel& model);

@@ -38,7 +38,7 @@ std::vector<Task> plan_scans(const FaceModel& model, const SynthesizeOptions& op
     std::vector<Task> tasks;
     tasks.reserve(static_cast<std::size_t>(options.neutrals));
     for (int k = 0; k < options.neutrals; ++k) tasks.push_back({make_expression("N"), k});
-    for (const auto& expression : make_expressions(options.expressions)) {
+    for (const auto& expression : make_expressions(options.expressions, options.emotions)) {
         const auto missing = missing_shapes(expression, model);
         if (!missing.empty()) {
             skipped.push_back(fmt::format("{}_{} (no shape {})", expression.group, expression.code, missing.front()));
@@ -225,7 +225,8 @@ void SynthesizeOptions::check() const {
             fmt::format("expressions is '{}', which names none; give thesis, emotions, further, all, N or "
                         "codes such as 12,12L,HAPPY",
                         expressions));
-    (void)make_expressions(expressions);
+    if (!is_emotion_set(emotions)) throw InputError(fmt::format("emotions is '{}'; give emfacs or thesis", emotions));
+    (void)make_expressions(expressions, emotions);
 }
 
 SynthesizeEstimate estimate_database(const FaceModel& model, const SynthesizeOptions& options) {
@@ -292,15 +293,16 @@ SynthesizeReport synthesize_database(const fs::path& out, const FaceModel& model
         for (const auto& scan : subject.scans) scan_list.push_back(scan);
         facs += subject.facs_lines;
     }
-    const json truth = {{"schema", 1},
-                        {"frame", "mm; +x subject's left, +y up, +z out of the face"},
-                        {"seed", options.seed},
-                        {"expressions", options.expressions},
-                        {"variances", io::fields_to_json(options.variances)},
-                        {"scanner", io::fields_to_json(options.scanner)},
-                        {"face_model", model_json(model)},
-                        {"subjects", subject_list},
-                        {"scans", scan_list}};
+    json truth = {{"schema", 1},
+                  {"frame", "mm; +x subject's left, +y up, +z out of the face"},
+                  {"seed", options.seed},
+                  {"expressions", options.expressions},
+                  {"variances", io::fields_to_json(options.variances)},
+                  {"scanner", io::fields_to_json(options.scanner)},
+                  {"face_model", model_json(model)},
+                  {"subjects", subject_list},
+                  {"scans", scan_list}};
+    if (options.emotions != SynthesizeOptions().emotions) truth["emotions"] = options.emotions;
     base::write_atomically(folder / "truth" / "truth.json", truth.dump() + "\n");
     base::write_atomically(folder / "subjects.csv", sexes);
     if (options.facs_codes) base::write_atomically(folder / "facscodes.lst", facs);

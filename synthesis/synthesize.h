@@ -15,6 +15,7 @@ namespace mimik::synthesis {
 struct SynthesizeOptions {
     int subjects = 12;                   ///< bs000, bs001, ...: the smallest number the project's scores are given for
     std::string expressions = "thesis";  ///< see make_expressions
+    std::string emotions = "emfacs";     ///< what emotions are made of: "emfacs", or "thesis" (its Table 3-3)
     int neutrals = 2;                    ///< N_N_0, N_N_1 ...: as most Bosphorus subjects have
     bool repeat = false;                 ///< a second scan _1 of each expression
     std::uint64_t seed = 1;
@@ -28,6 +29,7 @@ struct SynthesizeOptions {
     static constexpr void each_field(Self& self, Visit&& visit) {
         visit("subjects", self.subjects);
         visit("expressions", self.expressions);
+        visit("emotions", self.emotions);
         visit("neutrals", self.neutrals);
         visit("repeat", self.repeat);
         visit("seed", self.seed);

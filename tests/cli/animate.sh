@@ -24,6 +24,16 @@ expect_code 2 $'the thesis method has no mean\nbs000' "$mimik" animate work1 --t
 [ ! -e nothing.ply ]
 claim "wrong input is named, ends with 2 (3: the numbers allow no answer) and leaves nothing behind"
 
+"$mimik" animate work1 --source bs000 --target bs001 --au A4A12 -o both.ply 2>notes.txt
+grep -q 'A4A12\|AU4+AU12' notes.txt && grep -q 'composed of AU4 + AU12 (--combine sum)' notes.txt || { cat notes.txt; fail "no word of the parts"; }
+"$mimik" animate work1 --source bs000 --target bs001 --au 4,12 -o parts.ply --quiet
+cmp <(tail -c 100000 both.ply) <(tail -c 100000 parts.ply) || fail "the parts by their name are not the parts"
+"$mimik" animate work1 --source bs000 --target bs001 --au HAPPY --method thesis --combine parallel -o happy.ply 2>notes.txt
+grep -q 'HAPPY: no scan shows it, so it is composed of AU12 (--combine parallel); AU6 left out' notes.txt || { cat notes.txt; fail "HAPPY"; }
+expect_code 2 "no scan of expression 'SURPRISE'" "$mimik" animate work1 --source bs000 --target bs001 --au SURPRISE -o nothing.ply
+[ ! -e nothing.ply ]
+claim "an expression of several AUs that no scan shows is composed of those that are shown"
+
 for extension in ply obj vtp; do
   "$mimik" animate work1 --source bs000 --target bs001 --au 12 --method thesis -o "face.$extension" --quiet
   [ -s "face.$extension" ]

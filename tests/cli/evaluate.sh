@@ -13,6 +13,21 @@ grep -qF '"zones": "truth"' scores.json
 grep -qF '"zones": "catalogue"' drawn.json
 expect_code 2 "--zones" "$mimik" evaluate work1 --expression 12 --zones guess
 claim "scores are written as text, table and JSON, and JSON is what is printed"
+"$mimik" evaluate work1 --expression 12 --method thesis,thesis-tuned --no-whole-face --on-itself -o scores --json --quiet >itself.json
+cmp itself.json scores/on_itself.json
+cmp scores.json scores/scores.json || fail "rows of a source on itself went into the usual ones"
+grep -qF '"pairs": "source on itself"' itself.json
+awk -F, 'NR > 1 && !/^#/ && $4 != "nothing" && $1 != $2 { exit 1 }' scores/cases_on_itself.csv || fail "two people in cases_on_itself.csv"
+expect_code 2 "--on-itself"$'\nmethod \'mean\'' "$mimik" evaluate work1 --expression 12 --method mean --on-itself
+claim "a source on itself has files of its own, and no mean"
+"$mimik" tune work1 --au 12 --hold-out 3 --most 3 --first-step 2 --last-step 2 --most-evaluations 20 -o tuned.toml --json --quiet >tuned.json
+"$mimik" catalogue tuned.toml --lint | grep -q ': 0 errors' || fail "the tuned catalogue has faults"
+grep -q '^# Tuned on: .* seed 5, 2 subjects' tuned.toml && grep -q '^# Not seen: .* seed 5, 1 subject ' tuned.toml || { head -n 12 tuned.toml; fail "where it was tuned"; }
+grep -q '"moved_mm"' tuned.json
+"$mimik" evaluate work1 --expression 12 --method thesis --catalogue tuned.toml --no-reference --no-whole-face -o retuned --quiet >/dev/null
+expect_code 2 "12L" "$mimik" tune work1 --au 12L -o none.toml
+expect_code 2 "is tuned on, too" "$mimik" tune work1 --unseen work1 --au 12 -o none.toml
+claim "tune writes a catalogue that says where it was tuned, and evaluate takes it"
 # A comment line ends each unit of work: the cast of an expression, an expression of a target. No comma stands in a subject, an expression or a
 # method: a row is split at every comma that is not within quotes.
 awk '

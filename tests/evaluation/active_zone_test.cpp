@@ -124,7 +124,7 @@ TEST_F(ActiveZoneTest, of_several_subjects_is_that_of_their_mean) {
 }
 
 TEST_F(ActiveZoneTest, of_the_catalogue_holds_the_mouth_corners_and_not_the_brows) {
-    const auto drawn = active_zone_from_catalogue(test::expression("12"), *average_, facs::builtin_catalogue());
+    const auto drawn = shipped_active_zone(test::expression("12"), *average_);
     const auto at = [&](const char* name) {
         std::size_t nearest = 0;
         double best = 1e9;

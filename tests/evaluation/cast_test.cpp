@@ -160,8 +160,7 @@ TEST_F(CastTest, the_zone_of_the_data_is_where_the_truth_moves_most_and_not_wher
     EXPECT_EQ(data.zone_from, ZoneSource::data);
     EXPECT_EQ(drawn.zone_from, ZoneSource::catalogue);
     EXPECT_EQ(of(ZoneSource::automatic).zone.active, truth.zone.active);
-    EXPECT_EQ(drawn.zone.active,
-              active_zone_from_catalogue(expression, workspace_->average(), facs::builtin_catalogue()).active);
+    EXPECT_EQ(drawn.zone.active, shipped_active_zone(expression, workspace_->average()).active);
     const auto& true_mm = truth.zone.displacement_mm;
     const double largest_mm = *std::max_element(true_mm.begin(), true_mm.end());
     std::size_t active = 0;
@@ -199,9 +198,7 @@ TEST(CastWithoutTruth, takes_the_zone_of_the_catalogue_with_a_remark_where_the_s
     };
     const auto small = cast_of("17", ZoneSource::automatic);
     EXPECT_EQ(small.zone_from, ZoneSource::catalogue);
-    EXPECT_EQ(
-        small.zone.active,
-        active_zone_from_catalogue(test::expression("17"), workspace.average(), facs::builtin_catalogue()).active);
+    EXPECT_EQ(small.zone.active, shipped_active_zone(test::expression("17"), workspace.average()).active);
     EXPECT_THAT(
         small.remarks,
         testing::ElementsAre(testing::StartsWith("17: zone from the catalogue, the scans show a mean motion of")));
@@ -238,7 +235,7 @@ TEST(CastOfEmotion, has_the_zones_of_its_units_beside_its_own) {
     };
     const auto happy = zone_of("HAPPY"), smile = zone_of("12");
     const auto& average = workspace.average();
-    const auto cheeks = active_zone_from_catalogue(test::expression("6"), average, facs::builtin_catalogue()).active;
+    const auto cheeks = shipped_active_zone(test::expression("6"), average).active;
     ASSERT_EQ(happy.size(), smile.size());
     std::size_t only_smile = 0, only_cheeks = 0;
     for (std::size_t v = 0; v < happy.size(); ++v) {

@@ -144,6 +144,32 @@ TEST_F(Experiment, every_method_that_there_is_has_an_answer_for_every_case) {
     }
 }
 
+TEST_F(Experiment, a_source_on_itself_is_scored_alone_and_its_own_true_field_leaves_no_true_error) {
+    auto options = smile_options();
+    options.on_itself = true;
+    options.methods = {animation::method_by_name("thesis"), animation::method_by_name("default")};
+    const database::TemporaryFolder folder;
+    const auto file = folder.path() / "cases.csv";
+    const PerformanceReader reader(*workspace_);
+    const auto report = run_experiment(reader, facs::builtin_catalogue(),
+                                       plan_experiment(*workspace_, facs::builtin_catalogue(), options, true), file);
+    EXPECT_TRUE(report.on_itself);
+    EXPECT_EQ(report.rows.size(), 3U);  // no mean field: nobody else is asked
+    const auto& field = row(report, "true field, one source").per_expression.at("12");
+    EXPECT_EQ(field.cases, 3U);
+    EXPECT_NEAR(*field.true_error_mm, 0, 1e-9);
+    EXPECT_EQ(row(report, "thesis").per_expression.at("12").cases, 3U);
+    EXPECT_GT(*row(report, "default").explained, *row(*report_, "default").explained);
+    (void)read_case_rows(file, [](const CaseRow& row) {
+        if (row.key.method != baseline_method) {
+            EXPECT_EQ(row.key.source, row.key.target);
+        }
+    });
+    EXPECT_EQ(scores_of([&](const auto& visit) { (void)read_case_rows(file, visit); }).count("thesis"), 0U);
+    options.methods = {animation::method_by_name("mean")};
+    EXPECT_THROW((void)plan_experiment(*workspace_, facs::builtin_catalogue(), options, true), InputError);
+}
+
 TEST_F(Experiment, zones_are_those_that_were_asked_for) {
     auto options = smile_options();
     options.methods = {animation::method_by_name("default")};

@@ -50,6 +50,21 @@ TEST(Score, knows_no_case_whose_baseline_is_another_face) {
     EXPECT_EQ(table.at("own").at("12").explained, 0.5);
 }
 
+TEST(Score, of_a_source_on_itself_stands_in_no_mean_of_pairs_and_of_pairs_in_none_of_itself) {
+    const CaseKey nothing{"", "bs000", "12", "nothing"}, other{"bs001", "bs000", "12", "own"};
+    const CaseKey itself{"bs000", "bs000", "12", "own"};
+    const auto read = [&](const auto& visit) {
+        for (const auto& [key, mm] : {std::pair(nothing, 2.0), std::pair(itself, 0.5), std::pair(other, 1.0)})
+            visit({key, "surface_distance", "zone", "mean", mm, "mm", ""});
+    };
+    const auto pairs = scores_of(read), alone = scores_of(read, Pairs::source_on_itself);
+    EXPECT_EQ(pairs.at("own").at("12").cases, 1U);
+    EXPECT_EQ(pairs.at("own").at("12").explained, 0.5);
+    EXPECT_EQ(alone.at("own").at("12").cases, 1U);
+    EXPECT_EQ(alone.at("own").at("12").explained, 0.75);
+    EXPECT_EQ(alone.at("nothing").at("12").explained, 0.0);
+}
+
 TEST(Score, of_overshooting_is_negative_and_counted_as_worse_than_nothing) {
     const auto score = score_of({{"nothing", "", 2}, {"own", "bs001", 4}, {"own", "bs002", 2}}, "own");
     EXPECT_EQ(score.worse_than_nothing, 1U);

@@ -1,6 +1,7 @@
 #include "facs/facs_catalogue.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
+#include "facs/reference_face.h"
+#include "geometry/face_axes.h"
 #include "tests/support/thrown.h"
 
 namespace mimik::facs {
@@ -90,6 +93,92 @@ TEST(BuiltinCatalogue, knows_the_muscles_that_the_thesis_names) {
     EXPECT_EQ(muscle(15), "depressor anguli oris (triangularis)");
     EXPECT_EQ(muscle(17), "mentalis");
     EXPECT_EQ(muscle(20), "risorius");
+}
+
+TEST(BuiltinCatalogue, has_every_unit_of_table_3_2_of_the_thesis_and_says_where_each_muscle_was_published) {
+    for (const int number : {1,  2,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18,
+                             20, 22, 23, 24, 25, 26, 27, 28, 38, 39, 41, 42, 43, 44, 45, 46})
+        EXPECT_NE(builtin_catalogue().find(number), nullptr) << number;
+    EXPECT_THAT(builtin_catalogue().find(13)->name, HasSubstr("Cheek Puffer"));
+    for (const auto& unit : builtin_catalogue().action_units())
+        for (const auto& muscle : unit.muscles)
+            EXPECT_THAT(muscle.reference, testing::ContainsRegex("\\(pp?\\. 3[67]"))
+                << unit.number << ' ' << muscle.name;
+}
+
+TEST(BuiltinCatalogue, calls_no_lip_or_lid_a_muscle_of_a_unit_that_only_carries_it) {
+    const auto kind_of = [](int number, const std::string& name) {
+        for (const auto& point : builtin_catalogue().find(number)->points)
+            if (point.name == name) return point.kind;
+        throw std::runtime_error("no point " + name);
+    };
+    EXPECT_EQ(kind_of(12, "zygomaticus_high"), ControlKind::muscle);
+    EXPECT_EQ(kind_of(12, "upper_lip_side"), ControlKind::carried);
+    EXPECT_EQ(kind_of(4, "upper_lid_fold"), ControlKind::carried);
+    EXPECT_EQ(kind_of(17, "mentalis"), ControlKind::muscle);
+    EXPECT_EQ(kind_of(17, "upper_lip"), ControlKind::carried);
+    EXPECT_EQ(kind_of(24, "upper_lip"), ControlKind::muscle);  // the ring around the mouth is what it is
+}
+
+TEST(BuiltinCatalogue, makes_emotions_of_table_3_3_where_that_set_is_chosen) {
+    const auto thesis = builtin_catalogue().with_emotions("thesis");
+    const auto of = [](const FacsCatalogue& catalogue, const std::string& name) {
+        std::vector<int> numbers;
+        for (const auto& part : catalogue.expression(name).units()) numbers.push_back(part.unit);
+        return numbers;
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(of(thesis, "fear"), ElementsAre(1, 2, 4, 5, 20, 27));
+    EXPECT_THAT(of(thesis, "ANGER"), ElementsAre(4, 5, 7, 23, 25));
+    EXPECT_THAT(of(thesis, "disgust"), ElementsAre(9, 17));
+    EXPECT_THAT(of(thesis, "happy"), ElementsAre(6, 12));
+    EXPECT_THAT(of(thesis, "sadness"), ElementsAre(1, 4, 15));
+    EXPECT_THAT(of(thesis, "surprise"), ElementsAre(1, 2, 5, 26));
+    EXPECT_THAT(of(builtin_catalogue(), "disgust"), ElementsAre(9, 15, 16));
+    EXPECT_NE(thesis.content_hash(), builtin_catalogue().content_hash());
+    try {
+        (void)builtin_catalogue().with_emotions("mine");
+        FAIL() << "not refused";
+    } catch (const InputError& e) {
+        EXPECT_THAT(e.what(),
+                    HasSubstr("emotions 'mine' are not in the built-in catalogue; there are: emfacs, thesis"));
+    }
+}
+
+TEST(ThesisCatalogue, is_the_built_in_one_but_for_points_that_moved_by_at_most_8_mm) {
+    const auto& tuned = thesis_catalogue();
+    const double mm = geometry::outer_eye_distance_mm(reference_landmarks());
+    double farthest_mm = 0;
+    ASSERT_EQ(tuned.action_units().size(), builtin_catalogue().action_units().size());
+    for (const auto& unit : builtin_catalogue().action_units()) {
+        const auto& other = *tuned.find(unit.number);
+        ASSERT_EQ(other.points.size(), unit.points.size()) << unit.number;
+        for (std::size_t k = 0; k < unit.points.size(); ++k) {
+            const auto &a = unit.points[k].placement, &b = other.points[k].placement;
+            EXPECT_EQ(other.points[k].name, unit.points[k].name);
+            farthest_mm = std::max(farthest_mm, mm * std::hypot(a.lateral - b.lateral, a.up - b.up));
+        }
+    }
+    EXPECT_LE(farthest_mm, 8.1);  // offsets are written to a tenth of a millimetre
+    EXPECT_GT(farthest_mm, 1.0);
+    for (const auto& finding : lint_catalogue(std::string(thesis_catalogue_text())))
+        EXPECT_FALSE(finding.error) << finding.what;
+}
+
+TEST(Placement, names_the_landmarks_that_are_missing_as_landmarks_are_named) {
+    const Placement chin{{{"chin", 0.5}, {"mouth_corner", 0.5}}, 0, 0};
+    std::vector<geometry::Landmark> marks;
+    for (const auto& mark : reference_landmarks().all())
+        if (mark.name != "chin" && mark.name != "mouth_corner_right") marks.push_back(mark);
+    const geometry::Landmarks few(marks);
+    EXPECT_THAT(missing_marks(chin, few, Side::left), testing::ElementsAre("chin"));
+    EXPECT_THAT(missing_marks(chin, few, Side::right), testing::ElementsAre("chin", "mouth_corner_right"));
+    try {
+        (void)place(chin, few, Side::left);
+        FAIL() << "not refused";
+    } catch (const InputError& e) {
+        EXPECT_THAT(e.what(), testing::AllOf(HasSubstr("chin"), testing::Not(HasSubstr("chin_left"))));
+    }
 }
 
 TEST(BuiltinCatalogue, resolves_the_six_emotions_to_their_units) {
@@ -372,7 +461,7 @@ TEST(CatalogueReader, refuses_a_faulty_file_by_name_and_line) {
                               "mine.toml");
         FAIL() << "accepted";
     } catch (const InputError& e) {
-        EXPECT_THAT(e.what(), HasSubstr("mine.toml:12: kind 'bone' is neither muscle nor wrinkle"));
+        EXPECT_THAT(e.what(), HasSubstr("mine.toml:12: kind 'bone' is none of muscle, carried, wrinkle"));
     }
 }
 

@@ -13,7 +13,7 @@ using namespace mimik;
 double explained_by(const geometry::DisplacementField& field, const preprocessing::Face& neutral,
                     const preprocessing::Face& expressive, const facs::Expression& expression,
                     const preprocessing::AverageFace& average) {
-    const auto drawn = evaluation::active_zone_from_catalogue(expression, average, facs::builtin_catalogue());
+    const auto drawn = evaluation::shipped_active_zone(expression, average);
     const auto zone = evaluation::carry_zone(drawn, average, neutral);
     const auto surface = geometry::face_surface(neutral.grid, neutral.landmarks);
     const auto target = evaluation::scored_target(surface, expressive.grid, expressive.neutral_from_scan, zone);

@@ -1,0 +1,127 @@
+#include "evaluation/tune_points.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/errors.h"
+#include "base/parallel.h"
+#include "tests/database/temporary_folder.h"
+#include "tests/support/analytic_truth.h"
+#include "tests/support/analytic_workspace_files.h"
+
+namespace mimik::evaluation {
+namespace {
+
+/// Three people whose smile is a bump of motion about the mouth corners, the mouth corner its peak.
+class TunePoints : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = new database::TemporaryFolder;
+        test::write_analytic_truth(folder_->path() / "db");
+        workspace_ = new preprocessing::Workspace(test::analytic_workspace(folder_->path()));
+        reader_ = new PerformanceReader(*workspace_);
+    }
+    static void TearDownTestSuite() {
+        delete reader_;
+        delete workspace_;
+        delete folder_;
+    }
+
+    /// One AU whose outer points hold still where the smile does not reach, and one point on each side that is `off_mm`
+    /// above the corner, the peak of the motion.
+    static facs::FacsCatalogue smile_with_point(double off_mm) {
+        const auto& built_in = *facs::builtin_catalogue().find(12);
+        facs::ActionUnit unit = built_in;
+        unit.points.clear();
+        const auto add = [&](const std::string& name, const std::string& mark, double lateral, double up) {
+            unit.points.push_back({name, facs::ControlKind::carried, {{{mark, 1.0}}, lateral, up}});
+        };
+        add("wing", "nose_wing", 0, 0);
+        add("cheek", "mouth_corner", 0.33, 0.05);
+        add("jaw", "mouth_corner", 0.20, -0.33);
+        add("chin", "chin", 0, 0);
+        add("lip", "upper_lip_outer", 0, 0);
+        unit.points.push_back(
+            {"corner", facs::ControlKind::muscle, {{{"mouth_corner", 1.0}}, 0.0, off_mm / outer_eyes_mm}});
+        return {facs::builtin_catalogue().sampling(), {unit}, {}, "smile"};
+    }
+    static TunedUnit tuned(const facs::FacsCatalogue& catalogue, TuneOptions options) {
+        options.carried = false;
+        options.most_vertices = 300;
+        const std::vector<TuneGroup> training = {{reader_, {"bs000", "bs001"}}}, unseen = {{reader_, {"bs002"}}};
+        FailureList failures;
+        const animation::MethodPointer method = animation::method_by_name("thesis");
+        return tune_points(training, unseen, catalogue, 12, dynamic_cast<const animation::ModelMethod&>(*method),
+                           options, failures);
+    }
+
+    static constexpr double outer_eyes_mm = 89.0;  // of the reference face
+    static database::TemporaryFolder* folder_;
+    static preprocessing::Workspace* workspace_;
+    static PerformanceReader* reader_;
+};
+
+database::TemporaryFolder* TunePoints::folder_ = nullptr;
+preprocessing::Workspace* TunePoints::workspace_ = nullptr;
+PerformanceReader* TunePoints::reader_ = nullptr;
+
+TEST_F(TunePoints, brings_a_point_that_was_put_off_back_to_where_it_does_best) {
+    TuneOptions options;
+    const auto good = tuned(smile_with_point(0), options), bad = tuned(smile_with_point(7), options);
+    ASSERT_EQ(bad.points.size(), 1U);  // what is carried stays
+    EXPECT_EQ(bad.points.front().name, "corner");
+    ASSERT_EQ(bad.training.size(), 1U);
+    EXPECT_GT(bad.training.front().before_mm, good.training.front().before_mm);
+    EXPECT_LT(bad.training.front().after_mm, bad.training.front().before_mm);
+    // From both starts the search ends at errors within a step of each other.
+    EXPECT_NEAR(bad.training.front().after_mm, good.training.front().after_mm, 0.1 * good.training.front().nothing_mm);
+    EXPECT_LT(bad.points.front().up, bad.points.front().was_up);
+    EXPECT_TRUE(bad.converged);
+    EXPECT_EQ(bad.training.front().cases, 2U);
+    EXPECT_EQ(bad.unseen.front().cases, 1U);
+    EXPECT_LT(bad.unseen.front().after_mm, bad.unseen.front().before_mm);
+}
+
+TEST_F(TunePoints, moves_no_point_farther_than_it_may_and_writes_what_it_scored) {
+    TuneOptions options;
+    options.most_mm = 2;
+    const auto catalogue = smile_with_point(7);
+    const auto found = tuned(catalogue, options);
+    EXPECT_LE(found.points.front().moved_mm, 2 + 1e-9);
+    EXPECT_GT(found.points.front().moved_mm, 1);
+    options.search.most_evaluations = 1;  // the start alone: what the catalogue scores as it stands
+    EXPECT_DOUBLE_EQ(tuned(with_moved_points(catalogue, found), options).training.front().before_mm,
+                     found.training.front().after_mm);
+}
+
+TEST_F(TunePoints, gives_the_same_points_for_any_number_of_threads) {
+    std::vector<TunedUnit> found;
+    for (const int threads : {1, 2}) {
+        base::set_thread_count(threads);
+        found.push_back(tuned(smile_with_point(4), {}));
+    }
+    base::set_thread_count(0);
+    EXPECT_EQ(found[0].points.front().up, found[1].points.front().up);
+    EXPECT_EQ(found[0].points.front().lateral, found[1].points.front().lateral);
+    EXPECT_EQ(found[0].evaluations, found[1].evaluations);
+    EXPECT_EQ(found[0].training.front().after_mm, found[1].training.front().after_mm);
+}
+
+TEST_F(TunePoints, refuses_what_cannot_be_tuned) {
+    const auto catalogue = smile_with_point(0);
+    const std::vector<TuneGroup> training = {{reader_, {"bs000"}}};
+    FailureList failures;
+    const auto method = animation::method_by_name("thesis"), dense = animation::method_by_name("default");
+    const auto tune = [&](const animation::Method& by, int unit, const TuneOptions& options) {
+        (void)tune_points(training, {}, catalogue, unit, dynamic_cast<const animation::ModelMethod&>(by), options,
+                          failures);
+    };
+    EXPECT_THROW(tune(*dense, 12, {}), InputError);
+    EXPECT_THROW(tune(*method, 4, {}), InputError);
+    TuneOptions options;
+    options.most_mm = 0;
+    EXPECT_THROW(tune(*method, 12, options), InputError);
+}
+
+}  // namespace
+}  // namespace mimik::evaluation
