@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "base/errors.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/command.h"

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -64,7 +65,7 @@ Groups open_groups(const Arguments& arguments) {
     }
     for (const auto& folder : arguments.unseen) {
         for (const auto& training : arguments.workspaces)
-            if (std::filesystem::equivalent(folder, training))
+            if (std::error_code none; std::filesystem::equivalent(folder, training, none))
                 throw InputError(fmt::format("--unseen: {} is tuned on, too; give another, or leave it out", folder));
         const auto& open = *groups.open.emplace_back(std::make_unique<OpenWorkspace>(folder));
         groups.unseen.push_back({&open.reader, open.workspace.shown_subjects()});

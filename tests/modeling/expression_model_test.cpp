@@ -342,6 +342,31 @@ TEST_F(ExpressionModelTest, a_missing_landmark_and_an_unknown_expression_are_nam
                 HasSubstr("99"));
 }
 
+TEST_F(ExpressionModelTest, a_thesis_source_without_one_mark_has_the_points_that_do_without_it) {
+    const auto without = [](const geometry::Landmarks& all, const std::string& name) {
+        std::vector<geometry::Landmark> marks;
+        for (const auto& mark : all.all())
+            if (mark.name != name) marks.push_back(mark);
+        return geometry::Landmarks(marks);
+    };
+    auto neutral = source_->neutral;
+    neutral.landmarks = without(neutral.landmarks, "lower_lip_outer");
+    neutral.snapped_landmarks = without(neutral.snapped_landmarks, "lower_lip_outer");
+    const auto of = [&](const preprocessing::Face& face, const char* code) {
+        return measure_expression(facs::builtin_catalogue(), test::expression(code), *average_, face, source_->smiling,
+                                  ModelOptions::thesis());
+    };
+    const auto whole = of(source_->neutral, "12"), less = of(neutral, "12");
+    EXPECT_EQ(less.points.size() + 2, whole.points.size());  // the lower lip beside the corners, left and right
+    EXPECT_THAT(less.left_out, testing::Contains("AU12.lower_lip_side_left: landmark 'lower_lip_outer' is missing"));
+    EXPECT_NO_THROW((void)point(less, "AU12.zygomaticus_high_left"));
+    // A source of the upper face needs no mouth, either.
+    neutral.landmarks = without(neutral.landmarks, "mouth_corner_left");
+    neutral.snapped_landmarks = without(neutral.snapped_landmarks, "mouth_corner_left");
+    EXPECT_GT(of(neutral, "4").mouth_width_mm, 0);
+    EXPECT_THROW((void)of(neutral, "12"), InputError);  // Eq. 5.8 asks for its mouth
+}
+
 TEST_F(ExpressionModelTest, closed_lips_with_two_marks_on_one_place_are_measured_with_a_word_about_it) {
     auto neutral = source_->neutral;
     std::vector<geometry::Landmark> marks(neutral.landmarks.all().begin(), neutral.landmarks.all().end());

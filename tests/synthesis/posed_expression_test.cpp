@@ -34,6 +34,22 @@ TEST(Expression, groups_follow_the_face_half_and_lists_keep_their_order_without_
     EXPECT_EQ(make_expressions("all").size(), 10U + 6U + 16U);
 }
 
+TEST(Expression, emotions_are_made_of_what_the_chosen_set_says) {
+    const auto units = [](const PosedExpression& expression) {
+        std::vector<int> numbers;
+        for (const auto& [number, strength] : expression.action_units) numbers.push_back(number);
+        return numbers;
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(units(make_expression("FEAR", "thesis")), ElementsAre(1, 2, 4, 5, 20, 27));  // Table 3-3
+    EXPECT_THAT(units(make_expression("ANGER", "thesis")), ElementsAre(4, 5, 7, 23, 25));
+    EXPECT_THAT(units(make_expression("DISGUST", "thesis")), ElementsAre(9, 17));
+    EXPECT_THAT(units(make_expression("DISGUST")), ElementsAre(9, 10, 17));
+    EXPECT_EQ(make_expressions("emotions", "thesis").size(), 6U);
+    EXPECT_TRUE(is_emotion_set("emfacs"));
+    EXPECT_FALSE(is_emotion_set("mine"));
+}
+
 TEST(Expression, a_number_with_leading_zeros_is_the_number) {
     for (const char* spelling : {"AU04", "04", "UFAU_04"}) EXPECT_EQ(make_expression(spelling).code, "4") << spelling;
     EXPECT_EQ(make_expressions("12,012,AU012").size(), 1U);
