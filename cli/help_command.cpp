@@ -7,6 +7,7 @@
 #include "cli/help_pages.h"
 #include "cli/option_faults.h"
 #include "cli/terminal.h"
+#include "report/estimator_table.h"
 
 namespace mimik::cli {
 
@@ -16,13 +17,22 @@ void add_help_command(CLI::App& app, int& exit_code) {
     };
     const auto arguments = std::make_shared<Arguments>();
     auto* command = app.add_subcommand("help", "Say what a command does; the manual, the words for a shell");
-    command->add_option("COMMAND", arguments->command, "Without it, the list of all commands");
-    command->add_option("--format", arguments->format, "text, or man, bash, zsh: of the program as a whole")
-        ->check(CLI::IsMember(std::vector<std::string>{"text", "man", "bash", "zsh"}))
+    command->add_option("COMMAND", arguments->command,
+                        "Without it, the list of all commands; estimators: what 'mimik evaluate' can measure");
+    command
+        ->add_option("--format", arguments->format,
+                     "text, or man, bash, zsh: of the program as a whole; json: of estimators")
+        ->check(CLI::IsMember(std::vector<std::string>{"text", "man", "bash", "zsh", "json"}))
         ->capture_default_str();
     command->callback([arguments, &app, &exit_code] {
         exit_code = exit_done;
         const auto& name = arguments->command;
+        if (arguments->format == "json") {
+            if (name != "estimators")
+                throw InputError("--format json is of 'mimik help estimators' alone; leave it out");
+            raw_output() << report::estimators_json();
+            return;
+        }
         if (arguments->format != "text") {
             if (!name.empty()) throw InputError("--format is of the program as a whole; give it without a command");
             const auto program = page_of(app, app.get_name());
@@ -33,6 +43,10 @@ void add_help_command(CLI::App& app, int& exit_code) {
             return;
         }
         if (name.empty()) return print_help(app);
+        if (name == "estimators") {
+            raw_output() << report::estimators_markdown();
+            return;
+        }
         for (const auto* one : app.get_subcommands({}))
             if (one->get_name() == name) return print_help(*one);
         throw InputError(unknown_command(app, name));

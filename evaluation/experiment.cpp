@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -24,6 +26,11 @@ using database::ScanId;
 
 namespace {
 
+struct UnitRows {
+    std::string unit;
+    std::vector<CaseRow> rows;
+};
+
 /// One run: what its expressions share.
 class ExperimentRun {
 public:
@@ -38,6 +45,7 @@ public:
     }
     [[nodiscard]] std::vector<std::string> failures() const { return failures_.sorted(); }
     [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+    [[nodiscard]] const std::vector<UnitRows>& anchors() const { return anchors_; }
     /// Expressions whose zones the catalogue drew.
     [[nodiscard]] const std::vector<std::string>& zones_by_catalogue() const { return zones_by_catalogue_; }
 
@@ -80,16 +88,20 @@ private:
             if (std::find(remarks_.begin(), remarks_.end(), remark) == remarks_.end()) remarks_.push_back(remark);
         if (cast.zone_from == ZoneSource::catalogue && plan_.zones != ZoneSource::catalogue)
             zones_by_catalogue_.push_back(code);
+        std::vector<UnitRows> anchors(count);
         in_order(
             count,
             [&](std::size_t t) {
                 auto rows = score_target(reader_, plan_, cast, t, failures_);
+                anchors[t].rows = anchor_rows(reader_, cast, t, failures_);
                 if (progress_) progress_(fmt::format("{} {}", code, cast.participants[t].subject));
                 return rows;
             },
             [&](std::size_t t, const std::vector<CaseRow>& rows) {
-                store_.append(fmt::format("{} {}", code, cast.participants[t].subject), rows);
+                anchors[t].unit = fmt::format("{} {}", code, cast.participants[t].subject);
+                store_.append(anchors[t].unit, rows);
             });
+        std::move(anchors.begin(), anchors.end(), std::back_inserter(anchors_));
     }
 
     const PerformanceReader& reader_;
@@ -99,6 +111,7 @@ private:
     const std::function<void(const std::string&)>& progress_;
     FailureList failures_;
     std::set<std::string> usable_;
+    std::vector<UnitRows> anchors_;
     std::vector<std::string> remarks_, zones_by_catalogue_;
 };
 
@@ -153,6 +166,33 @@ MethodScores scores_of_method(const animation::Method& method, const ExperimentP
     return scores;
 }
 
+/// As tables print it.
+const char* said_of(Alignment alignment, bool truth) {
+    switch (alignment) {
+        case Alignment::none:
+            return "nothing: each scan as the scanner saw it";
+        case Alignment::landmarks:
+            return "landmarks";
+        case Alignment::given:
+            if (truth) return "true pose";
+            break;
+        case Alignment::stable_region:
+            break;
+    }
+    return "ICP on the stable region";
+}
+
+/// Beside the cases, where those are kept. @return all of them
+std::vector<CaseRow> keep_anchors(std::span<const UnitRows> units, const std::filesystem::path& cases) {
+    std::vector<CaseRow> all;
+    for (const auto& unit : units) all.insert(all.end(), unit.rows.begin(), unit.rows.end());
+    if (cases.empty()) return all;
+    CaseStore store(cases.parent_path() / "anchors.csv");
+    for (const auto& unit : units) store.append(unit.unit, unit.rows);
+    store.finish();
+    return all;
+}
+
 void add_shares(std::vector<MethodScores>& rows) {
     for (auto& row : rows)
         for (const auto& other : rows)
@@ -174,6 +214,7 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
         throw InputError(fmt::format("no expression is left to score ({})", fmt::join(run.failures(), "; ")));
     const auto table = scores_of([&](const auto& visit) { store->read(visit); });
     store->finish();
+    const auto anchor_rows = keep_anchors(run.anchors(), cases);
 
     ExperimentReport report;
     report.subjects = plan.subjects;
@@ -181,7 +222,7 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
     report.whole_face = plan.whole_face;
     report.zones = to_string(plan.zones);
     report.zones_by_catalogue = run.zones_by_catalogue();
-    report.alignment = reader.has_truth() ? "true pose" : "ICP on the stable region";
+    report.alignment = said_of(plan.alignment, reader.has_truth());
     report.truth = reader.truth_origin();
     for (const auto& method : plan.methods) {
         auto scores = scores_of_method(*method, plan, table);
@@ -191,6 +232,7 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
             report.rows.push_back(std::move(scores));
     }
     add_shares(report.rows);
+    report.anchors = anchors_of(anchor_rows, report.expressions);
     report.failures = run.failures();
     report.remarks = run.remarks();
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/anchors.h"
 #include "evaluation/performance.h"
 #include "evaluation/plan.h"
 #include "evaluation/score.h"
@@ -38,6 +39,7 @@ struct ExperimentReport {
     MethodScores nothing;
     std::vector<MethodScores> rows;
     std::vector<std::string> failures;      ///< what gave no answer, with the reason
+    std::vector<Anchor> anchors = {};       ///< scanner floor and performer floor
     std::vector<std::string> remarks = {};  ///< what is worth knowing, each once, with the number of subjects
     double seconds = 0.0;
 };
@@ -53,7 +55,8 @@ struct ExperimentReport {
 /// as they come.
 /// An expression of which fewer than 3 subjects are left is left out and listed.
 /// @param plan   of plan_experiment() for this workspace
-/// @param cases  where the rows are kept, one line per number; empty: nowhere that outlives the run
+/// @param cases  where the rows are kept, one line per number, and those of the anchors beside it (anchors.csv);
+/// empty: nowhere that outlives the run
 /// @throws InputError if no expression is left.
 [[nodiscard]] ExperimentReport run_experiment(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
                                               const ExperimentPlan& plan, const std::filesystem::path& cases = {},

@@ -7,6 +7,8 @@
 
 #include "animation/method.h"
 #include "evaluation/active_zone.h"
+#include "evaluation/error_metrics.h"
+#include "evaluation/estimator_choice.h"
 #include "facs/facs_catalogue.h"
 #include "preprocessing/workspace.h"
 
@@ -27,6 +29,11 @@ struct ExperimentOptions {
     bool whole_face = true;  ///< score the face outside the zone, too
     int max_sources = 0;     ///< per target, the next ones in the list after it; 0 = all other subjects
     ZoneSource zones = ZoneSource::automatic;  ///< where methods are compared
+    /// Beside the rows that every experiment has; each gives `metrics` in every one of `regions`.
+    std::vector<EstimatorChoice> estimators = {};
+    std::vector<std::string> regions = {"zone"};
+    MetricOptions metrics = {};
+    Alignment alignment = Alignment::given;  ///< of every row, and of estimators that name none
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
@@ -36,6 +43,10 @@ struct ExperimentOptions {
         visit("whole_face", self.whole_face);
         visit("max_sources", self.max_sources);
         visit("zones", self.zones);
+        visit("estimators", self.estimators);
+        visit("regions", self.regions);
+        visit("metrics", self.metrics);
+        visit("alignment", self.alignment);
     }
     void check() const;  ///< throws InputError
     /// AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 on the left.
@@ -58,6 +69,10 @@ struct ExperimentPlan {
     bool whole_face = true;
     std::size_t max_sources = 0;               ///< 0 = all
     ZoneSource zones = ZoneSource::catalogue;  ///< not automatic
+    std::vector<EstimatorChoice> estimators = {};
+    std::vector<std::string> regions = {};  ///< "wrinkles" among them where a curvature is measured
+    MetricOptions metrics = {};
+    Alignment alignment = Alignment::given;
 
     [[nodiscard]] std::size_t units() const;
     /// The participants whose performances are learned from for one target: the ring that begins after it.
