@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # evaluate.sh MIMIK FOLDER SHARED: what a shell meets of 'mimik evaluate'.
 set -euo pipefail
+page=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)/docs/algorithms/estimators.md
 source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
 
 borrow_workspace
@@ -42,7 +43,7 @@ expect_code 2 "estimator 'best' is unknown; there are: point-to-surface, " "$mim
 expect_code 2 "region 'ear' is unknown" "$mimik" evaluate work1 --expression 12 --region ear
 claim "estimators that are asked for add rows, are checked against the truth, and change no other row; anchors stand in the tables"
 "$mimik" help estimators | while read -r line; do
-  grep -qxF "$line" "$(dirname "${BASH_SOURCE[0]}")/../../docs/algorithms/estimators.md" || fail "docs/algorithms/estimators.md lacks: $line"
+  grep -qxF "$line" "$page" || fail "$page lacks: $line"
 done
 claim "the page of estimators has the definitions that the program prints"
 

@@ -20,8 +20,8 @@ std::vector<evaluation::Measure> estimate(const std::string& name, const geometr
     const auto surface = geometry::face_surface(neutral.grid, neutral.landmarks);
     const auto scored = evaluation::scored_target(surface, expressive.grid, expressive.neutral_from_scan, zone);
     const std::vector<std::string> regions = {"zone", "nose"};
-    evaluation::EstimatedTarget target(
-        scored, surface, evaluation::regions_on(neutral, average, catalogue, expression, zone, regions));
+    evaluation::EstimatedTarget target(scored, surface,
+                                       evaluation::regions_on(neutral, average, catalogue, expression, zone, regions));
     const evaluation::JudgedFace face{scored, surface, field};
     evaluation::CaseEstimates estimates(target, face);
     return estimates.measure(evaluation::estimator_by_name(name), {.metrics = {"rms", "coverage"}});
