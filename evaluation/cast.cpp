@@ -214,6 +214,7 @@ Cast gather_cast(const PerformanceReader& reader, const animation::LearningTask&
     if (cast.participants.empty()) return cast;
     cast.zone = finder.zone(task.expression, motions, &cast.zone_from);
     finder.add_zones_of_units(cast.zone, performances);
+    cast.catalogue = task.catalogue;
     cast.remarks = finder.remarks();
     return cast;
 }

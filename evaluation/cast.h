@@ -63,7 +63,9 @@ struct Cast {
     ActiveZone zone;
     LessonBook lessons;
     ZoneSource zone_from = ZoneSource::catalogue;  ///< its own zone, not those of an emotion's AUs
-    std::vector<std::string> remarks = {};         ///< zones that the catalogue draws because the data show too little
+    /// What wrinkle points are looked up in.
+    facs::FacsCatalogue catalogue = facs::builtin_catalogue();
+    std::vector<std::string> remarks = {};  ///< zones that the catalogue draws because the data show too little
 };
 
 /// Below this the largest mean motion of an expression on the template makes no zone. Lids that close on built-in faces

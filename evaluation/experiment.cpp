@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -159,6 +161,7 @@ private:
                 const auto& target = cast.participants[open[k]];
                 FailureList failures;
                 auto rows = score_target(reader_, plan_, cast, open[k], failures);
+                for (auto& row : anchor_rows(reader_, cast, open[k], failures)) rows.push_back(std::move(row));
                 for (const auto& failure : failures.sorted())
                     rows.push_back(note_row(code, note::failure, failure, target.subject));
                 if (watch_.unit) watch_.unit(target_unit(code, target));
@@ -183,6 +186,7 @@ private:
 /// What the rows of a whole run tell beside measures.
 struct RunNotes {
     std::vector<std::string> failures, remarks, zones_by_catalogue;  ///< failures sorted, remarks as they came
+    std::vector<CaseRow> anchors = {};
 };
 
 void add_once(std::vector<std::string>& list, const std::string& text) {
@@ -192,6 +196,7 @@ void add_once(std::vector<std::string>& list, const std::string& text) {
 RunNotes notes_of(const CaseStore& store, const ExperimentRun& run) {
     RunNotes notes{run.failures(), run.remarks(), {}};
     store.read([&](const CaseRow& row) {
+        if (is_anchor(row.key.method)) notes.anchors.push_back(row);
         if (row.estimator != run_estimator) return;
         if (row.metric == note::failure) add_once(notes.failures, row.reason);
         if (row.metric == note::remark) add_once(notes.remarks, row.reason);
@@ -253,6 +258,23 @@ MethodScores scores_of_method(const animation::Method& method, double magnitude,
     return scores;
 }
 
+/// As tables print it.
+const char* said_of(Alignment alignment, bool truth) {
+    switch (alignment) {
+        case Alignment::none:
+            return "nothing: each scan as the scanner saw it";
+        case Alignment::landmarks:
+            return "landmarks";
+        case Alignment::given:
+            if (truth) return "true pose";
+            break;
+        case Alignment::stable_region:
+            break;
+    }
+    return "ICP on the stable region";
+}
+
+/// Beside the cases, where those are kept. @return all of them
 void add_shares(std::vector<MethodScores>& rows) {
     for (auto& row : rows)
         for (const auto& other : rows)
@@ -282,7 +304,7 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
     report.on_itself = plan.on_itself;
     report.zones = to_string(plan.zones);
     report.zones_by_catalogue = std::move(notes.zones_by_catalogue);
-    report.alignment = reader.has_truth() ? "true pose" : "ICP on the stable region";
+    report.alignment = said_of(plan.alignment, reader.has_truth());
     report.truth = reader.truth_origin();
     for (const auto& method : plan.methods)
         for (const double magnitude : plan.magnitudes_of(*method)) {
@@ -293,6 +315,7 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
                 report.rows.push_back(std::move(scores));
         }
     add_shares(report.rows);
+    report.anchors = anchors_of(notes.anchors, report.expressions);
     report.failures = std::move(notes.failures);
     report.remarks = std::move(notes.remarks);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/anchors.h"
 #include "evaluation/case_store.h"
 #include "evaluation/performance.h"
 #include "evaluation/plan.h"
@@ -40,6 +41,7 @@ struct ExperimentReport {
     MethodScores nothing;
     std::vector<MethodScores> rows;
     std::vector<std::string> failures;      ///< what gave no answer, with the reason
+    std::vector<Anchor> anchors = {};       ///< scanner floor and performer floor
     std::vector<std::string> remarks = {};  ///< what is worth knowing, each once, with the number of subjects
     double seconds = 0.0;
 };

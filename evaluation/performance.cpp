@@ -64,6 +64,22 @@ database::TrueScan PerformanceReader::true_expression(const ScanId& expressive,
     return scan;
 }
 
+std::optional<ScanTwice> PerformanceReader::second_scan(const ScanId& first) const {
+    const auto& scans = workspace_.scans();
+    const auto next = std::find_if(scans.begin(), scans.end(), [&](const ScanId& id) {
+        return id.subject == first.subject && id.group == first.group && id.code == first.code &&
+               id.repetition > first.repetition;
+    });
+    if (next == scans.end()) return std::nullopt;
+    ScanTwice pair{workspace_.face(first), workspace_.face(*next)};
+    if (truth_)
+        pair.first_from_second = database::load_true_scan(*truth_, first).scanner_from_head *
+                                 database::load_true_scan(*truth_, *next).scanner_from_head.inverse(Eigen::Isometry);
+    else
+        pair.first_from_second = pair.first.neutral_from_scan.inverse() * pair.second.neutral_from_scan;
+    return pair;
+}
+
 void FailureList::add(std::string what) {
     const std::scoped_lock lock(mutex_);
     failures_.push_back(std::move(what));

@@ -24,6 +24,12 @@ struct TruthOrigin {
     std::map<std::string, double> variances, scanner;
 };
 
+/// Two scans of one subject that should be the same.
+struct ScanTwice {
+    preprocessing::Face first, second;
+    geometry::Transform first_from_second = geometry::Transform::Identity();  ///< the scans' scanner frames
+};
+
 /// Reads performances from a workspace, and their truth from its database if that has one. An experiment reads a face
 /// when somebody needs it and drops it afterwards: memory does not grow with the database. From any thread.
 class PerformanceReader {
@@ -43,6 +49,9 @@ public:
     /// two scans are brought together by the true pose where it is known, else as preprocessing aligned them.
     /// @throws InputError naming the file.
     [[nodiscard]] modeling::Performance read(const database::ScanId& expressive) const;
+    /// A scan and the next one of the same subject and expression, or of the same subject at rest; brought together as
+    /// those of a performance. Empty if there is none. @throws InputError naming the file.
+    [[nodiscard]] std::optional<ScanTwice> second_scan(const database::ScanId& first) const;
 
 private:
     [[nodiscard]] database::TrueScan true_expression(const database::ScanId& expressive,

@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "evaluation/score.h"
+#include "evaluation/scored_region.h"
 
 namespace mimik::evaluation {
 
@@ -37,6 +38,16 @@ void ExperimentOptions::check() const {
         for (std::size_t other = 0; other < k; ++other)
             if (methods[k]->name() == methods[other]->name())
                 throw InputError(fmt::format("method '{}' is asked for twice; give it once", methods[k]->name()));
+    for (std::size_t k = 0; k < estimators.size(); ++k)
+        if (std::count(estimators.begin(), estimators.begin() + static_cast<std::ptrdiff_t>(k), estimators[k]) > 0)
+            throw InputError(fmt::format("estimator '{}' is asked for twice; give it once", to_string(estimators[k])));
+    if (regions.empty()) throw InputError("an experiment without a region; give one or more, such as zone or face");
+    for (std::size_t k = 0; k < regions.size(); ++k) {
+        check_region(regions[k]);
+        if (std::count(regions.begin(), regions.begin() + static_cast<std::ptrdiff_t>(k), regions[k]) > 0)
+            throw InputError(fmt::format("region '{}' is asked for twice; give it once", regions[k]));
+    }
+    metrics.check();
     if (max_sources < 0) throw InputError(fmt::format("max_sources is {}; give 0 (all) or more", max_sources));
     if (magnitudes.empty()) throw InputError("magnitudes is empty; give one or more, such as 1");
     for (std::size_t k = 0; k < magnitudes.size(); ++k) {
@@ -96,6 +107,24 @@ std::set<std::string> known_subjects(const preprocessing::Workspace& workspace, 
     return {asked.begin(), asked.end()};
 }
 
+/// @throws InputError where one needs a truth that is not there.
+void add_estimators(ExperimentPlan& plan, const ExperimentOptions& options, bool truth) {
+    plan.estimators = options.estimators;
+    plan.regions = options.regions;
+    plan.metrics = options.metrics;
+    plan.alignment = options.alignment;
+    bool curvature = false;
+    for (const auto& choice : options.estimators) {
+        if (choice.correspondence == Correspondence::truth && !truth)
+            throw InputError(fmt::format(
+                "estimator '{}' looks at the truth of a synthetic database, and there is none; leave it out",
+                to_string(choice)));
+        curvature = curvature || choice.distance == Distance::curvature;
+    }
+    if (curvature && std::find(plan.regions.begin(), plan.regions.end(), "wrinkles") == plan.regions.end())
+        plan.regions.emplace_back("wrinkles");
+}
+
 }  // namespace
 
 ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const facs::FacsCatalogue& catalogue,
@@ -113,6 +142,7 @@ ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const 
     plan.targets = known_subjects(workspace, plan.subjects, options.targets, "targets");
     plan.sources = known_subjects(workspace, plan.subjects, options.sources, "sources");
     plan.zones = options.zones != ZoneSource::automatic ? options.zones : truth ? ZoneSource::truth : ZoneSource::data;
+    add_estimators(plan, options, truth);
     const auto has = [&](const std::string& name) {
         return std::any_of(plan.methods.begin(), plan.methods.end(), [&](const auto& m) { return m->name() == name; });
     };

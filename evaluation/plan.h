@@ -9,6 +9,8 @@
 
 #include "animation/method.h"
 #include "evaluation/active_zone.h"
+#include "evaluation/error_metrics.h"
+#include "evaluation/estimator_choice.h"
 #include "facs/facs_catalogue.h"
 #include "preprocessing/workspace.h"
 
@@ -38,6 +40,11 @@ struct ExperimentOptions {
     /// Each source as its own target, and nobody else: the thesis' own check of its points (5.5.1). No row of two
     /// people is made beside it.
     bool on_itself = false;
+    /// Beside the rows that every experiment has; each gives `metrics` in every one of `regions`.
+    std::vector<EstimatorChoice> estimators = {};
+    std::vector<std::string> regions = {"zone"};
+    MetricOptions metrics = {};
+    Alignment alignment = Alignment::given;  ///< of every row, and of estimators that name none
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
@@ -51,6 +58,10 @@ struct ExperimentOptions {
         visit("sources", self.sources);
         visit("magnitudes", self.magnitudes);
         visit("on_itself", self.on_itself);
+        visit("estimators", self.estimators);
+        visit("regions", self.regions);
+        visit("metrics", self.metrics);
+        visit("alignment", self.alignment);
     }
     void check() const;  ///< throws InputError
     /// AU 1, 2, 4, 12, 14, 15, 17, 20 and 12 on the left.
@@ -77,6 +88,10 @@ struct ExperimentPlan {
     std::set<std::string> sources = {};        ///< whose performances are learned from; empty: all
     std::vector<double> magnitudes = {1.0};
     bool on_itself = false;  ///< each source as its own target
+    std::vector<EstimatorChoice> estimators = {};
+    std::vector<std::string> regions = {};  ///< "wrinkles" among them where a curvature is measured
+    MetricOptions metrics = {};
+    Alignment alignment = Alignment::given;
 
     [[nodiscard]] std::size_t units() const;
     /// How many must show an expression.

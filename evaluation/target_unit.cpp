@@ -13,6 +13,7 @@
 #include "evaluation/estimator.h"
 #include "evaluation/score.h"
 #include "evaluation/still_skin.h"
+#include "evaluation/target_estimators.h"
 
 namespace mimik::evaluation {
 
@@ -34,7 +35,8 @@ public:
           own_(reader.read(cast.participants[t])),
           prepared_(own_.neutral, own_.true_neutral ? &*own_.true_neutral : nullptr),
           ring_(plan.sources_of(t, cast.participants)),
-          scored_(scored_target(prepared_.surface(), own_.expressive.grid, own_.neutral_from_expressive,
+          aligned_(neutral_from_expressive(plan.alignment, own_)),
+          scored_(scored_target(prepared_.surface(), own_.expressive.grid, aligned_,
                                 carry_zone(cast.zone, reader.workspace().average(), own_.neutral))),
           still_(DisplacementField::still(prepared_.surface().size())) {
         scored_.whole_face = plan.whole_face;
@@ -42,9 +44,12 @@ public:
             for (const auto v : scored_.vertices)
                 scored_.true_displacement_mm.push_back(
                     prepared_.material_points().at(own_.true_expression->displacement_mm, v));
-        scored_.expressive_landmarks = geometry::transformed(own_.expressive.landmarks, own_.neutral_from_expressive);
+        scored_.expressive_landmarks = geometry::transformed(own_.expressive.landmarks, aligned_);
         scored_.still = prepared_.has_truth() ? still_by_truth(scored_.true_displacement_mm)
                                               : still_by_scans(prepared_.surface(), scored_);
+        if (plan.estimators.empty()) return;
+        estimators_.emplace(reader, plan, cast, own_, prepared_.surface(), scored_);
+        for (const auto& reason : estimators_->silent()) failures.add(reason);
     }
 
     std::vector<CaseRow> run() {
@@ -120,6 +125,9 @@ private:
         for (const auto& estimator : known_estimators())
             for (const auto& found : estimator->measure(judged))
                 rows_.push_back({key, estimator->name(), found.region, found.metric, found.value, found.unit, reason});
+        if (!estimators_) return;
+        for (const auto& [estimator, found] : estimators_->measure(judged))
+            rows_.push_back({key, estimator, found.region, found.metric, found.value, found.unit, reason});
     }
 
     const ExperimentPlan& plan_;
@@ -128,7 +136,9 @@ private:
     modeling::Performance own_;
     PreparedTarget prepared_;
     std::vector<std::size_t> ring_;  // the sources, as means take them
+    geometry::Transform aligned_;    // neutral from expressive, by the plan's alignment
     ScoredTarget scored_;
+    std::optional<TargetEstimators> estimators_;  // those that the plan asks for
     DisplacementField still_;
     std::vector<CaseRow> rows_;
 };

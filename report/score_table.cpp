@@ -68,6 +68,66 @@ std::string begin_row(const evaluation::ExperimentReport& report, const evaluati
                        kind_name(row, report.on_itself));
 }
 
+/// Mean over the targets of one expression; empty: not known.
+std::optional<double> floor_mm(const evaluation::Anchor& anchor, const facs::Expression& expression) {
+    const auto found = anchor.mm.find(expression.code());
+    return found == anchor.mm.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// What a face that is off by the floor alone explains.
+std::optional<double> explained_by_floor(const evaluation::ExperimentReport& report, const evaluation::Anchor& anchor,
+                                         const facs::Expression& expression) {
+    const auto mm = floor_mm(anchor, expression);
+    const auto found = report.nothing.per_expression.find(expression.code());
+    if (!mm || found == report.nothing.per_expression.end()) return std::nullopt;
+    const auto& nothing_mm = found->second.nothing_mm;
+    if (!nothing_mm || *nothing_mm <= evaluation::least_motion_mm) return std::nullopt;
+    return 1 - *mm / *nothing_mm;
+}
+
+/// A line per anchor; what is not known says so.
+template <class Number>
+std::string anchor_rows(const evaluation::ExperimentReport& report, std::size_t more_columns, const Number& number) {
+    std::string text;
+    for (const auto& anchor : report.anchors) {
+        text += fmt::format("| {} | anchor |", anchor.title);
+        double sum = 0;
+        std::size_t known = 0;
+        for (const auto& expression : report.expressions) {
+            const std::optional<double> value = number(anchor, expression);
+            text += fmt::format(" {} |", value ? text_of(value, 2) : "unknown");
+            sum += value.value_or(0);
+            known += value ? 1 : 0;
+        }
+        for (std::size_t k = 0; k < more_columns; ++k)
+            text += k == 0 && known > 0 ? fmt::format(" {:.3f} |", sum / static_cast<double>(known)) : "  |";
+        text += "\n";
+    }
+    return text;
+}
+
+/// What the anchors are, and why one is not known: a figure without them says little.
+std::string about_anchors(const evaluation::ExperimentReport& report) {
+    std::string text =
+        "\nAnchors: doing nothing is 0 and a perfect face 1. The scanner floor is what a second scan of the same "
+        "resting "
+        "face is off by, the performer floor a second scan of the same expression.\n";
+    for (const auto& anchor : report.anchors) {
+        if (anchor.unknown.empty()) continue;
+        text += fmt::format("The {} is unknown: {}.", anchor.title, anchor.unknown);
+        if (anchor.method == evaluation::performer_floor)
+            text += fmt::format(" Published: {} to {} mm (Johnston et al. 2003).",
+                                evaluation::published_performer_floor_mm.first,
+                                evaluation::published_performer_floor_mm.second);
+        text += "\n";
+    }
+    const bool any = std::any_of(report.rows.begin(), report.rows.end(), [](const auto& row) { return row.bound; });
+    if (!any)
+        text += fmt::format("The true-field reference is unknown: {}.\n",
+                            report.truth ? "it was left out" : "the database has no truth");
+    return text;
+}
+
 std::string explained_table(const evaluation::ExperimentReport& report) {
     std::string text = header_of(report, {"mean", "median case", "share", "whole face", "worse than nothing"});
     for (const auto& row : report.rows) {
@@ -80,7 +140,11 @@ std::string explained_table(const evaluation::ExperimentReport& report) {
                             text_of(row.explained_median, 3), text_of(row.share, 2), text_of(row.explained_whole, 2),
                             worse_text(total));
     }
-    return text;
+    constexpr std::size_t columns_behind = 5;
+    text += anchor_rows(report, columns_behind, [&](const auto& anchor, const auto& expression) {
+        return explained_by_floor(report, anchor, expression);
+    });
+    return text + about_anchors(report);
 }
 
 /// Distances in millimetres; with a truth two of them.
@@ -109,7 +173,7 @@ std::string error_table(const evaluation::ExperimentReport& report) {
         }
         text += "\n";
     }
-    return text;
+    return text + anchor_rows(report, 0, floor_mm);
 }
 
 /// "1.4 (AU27 9.8)": the mean over the expressions, and the worst of them where there are several.
@@ -140,7 +204,9 @@ std::string faults_table(const evaluation::ExperimentReport& report) {
     };
     add("| doing nothing | |", report.nothing);
     for (const auto& row : report.rows) add(begin_row(report, row), row);
-    return text;
+    return text +
+           "\nThe anchors of these figures are doing nothing and the true fields; their floors are unknown, "
+           "since a second scan is no moved face.\n";
 }
 
 void add_to(nlohmann::json& document, const evaluation::Faults& faults) {
@@ -179,6 +245,27 @@ nlohmann::json json_of(const evaluation::MethodScores& row, bool on_itself) {
     return document;
 }
 
+nlohmann::json json_of(const evaluation::ExperimentReport& report, const evaluation::Anchor& anchor) {
+    nlohmann::json mm = nlohmann::json::object(), explained = nlohmann::json::object(),
+                   targets = nlohmann::json::object();
+    for (const auto& expression : report.expressions) {
+        mm[expression.code()] = json_of(floor_mm(anchor, expression));
+        explained[expression.code()] = json_of(explained_by_floor(report, anchor, expression));
+        const auto found = anchor.targets.find(expression.code());
+        targets[expression.code()] = found == anchor.targets.end() ? std::size_t{0} : found->second;
+    }
+    nlohmann::json document = {{"method", anchor.method},
+                               {"title", anchor.title},
+                               {"mm", mm},
+                               {"explained", explained},
+                               {"targets", targets},
+                               {"unknown", anchor.unknown.empty() ? nlohmann::json() : nlohmann::json(anchor.unknown)}};
+    if (anchor.method == evaluation::performer_floor)
+        document["published_mm"] = {evaluation::published_performer_floor_mm.first,
+                                    evaluation::published_performer_floor_mm.second};
+    return document;
+}
+
 }  // namespace
 
 std::string to_markdown(const evaluation::ExperimentReport& report) {
@@ -207,6 +294,7 @@ std::string to_csv(const evaluation::ExperimentReport& report) {
         "error_mm,nothing_true_mm,largest_step_mm,cases,worse_than_nothing,left_out_vertices";
     const evaluation::Faults names;
     evaluation::Faults::each_field(names, [&](const char* name, const auto&) { text += fmt::format(",{}", name); });
+    for (const auto& anchor : report.anchors) text += fmt::format(",{}_mm", anchor.method);
     text += "\n";
     constexpr int digits = 6;
     for (const auto& row : report.rows)
@@ -221,6 +309,7 @@ std::string to_csv(const evaluation::ExperimentReport& report) {
             evaluation::Faults::each_field(s.faults, [&](const char*, const std::optional<double>& value) {
                 text += "," + text_of(value, digits);
             });
+            for (const auto& anchor : report.anchors) text += "," + text_of(floor_mm(anchor, expression), digits);
             text += "\n";
         }
     return text;
@@ -229,6 +318,8 @@ std::string to_csv(const evaluation::ExperimentReport& report) {
 std::string to_json(const evaluation::ExperimentReport& report) {
     auto rows = nlohmann::json::array();
     for (const auto& row : report.rows) rows.push_back(json_of(row, report.on_itself));
+    auto anchors = nlohmann::json::array();
+    for (const auto& anchor : report.anchors) anchors.push_back(json_of(report, anchor));
     std::vector<std::string> expressions;
     for (const auto& expression : report.expressions) expressions.push_back(expression.code());
     nlohmann::json document =
@@ -247,6 +338,7 @@ std::string to_json(const evaluation::ExperimentReport& report) {
                                                                {"variances", report.truth->variances},
                                                                {"scanner", report.truth->scanner}}
                                               : nlohmann::json()},
+                       {"anchors", anchors},
                        {"rows", rows},
                        {"failures", report.failures}};
     if (report.on_itself) document["pairs"] = "source on itself";

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # evaluate.sh MIMIK FOLDER SHARED: what a shell meets of 'mimik evaluate'.
 set -euo pipefail
+page=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)/docs/algorithms/estimators.md
 source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
 
 borrow_workspace
@@ -39,6 +40,27 @@ awk '
   END { exit bad || NR < 2 || units != 8 }' scores/cases.csv || { head -n 5 scores/cases.csv; fail "rows of cases.csv"; }
 for pair in bs000,bs001 bs001,bs000 bs002,bs000; do grep -q "$pair" scores/cases.csv || fail "no row of $pair"; done
 claim "every case has its rows: a source on a target, a metric, a value"
+
+# The rows of every experiment stay as they are; those that are asked for stand beside them.
+"$mimik" evaluate work1 --expression 12 --method mean --no-reference -o plain --quiet >/dev/null
+"$mimik" evaluate work1 --expression 12 --method mean --no-reference --estimator point-to-surface,landmarks/signed --region zone,nose \
+  --check-estimators -o more --quiet >/dev/null
+grep -v -e ',point-to-surface,' -e ',landmarks/signed,' more/cases.csv | grep -v '^#' | cmp - <(grep -v '^#' plain/cases.csv)
+values() { awk -F, -v estimator="$1" '$6 == estimator && $7 == "zone" && $8 == "mean" { print $9 }' more/cases.csv; }
+cmp <(values point-to-surface) <(values surface_distance)
+grep -q ',landmarks/signed,nose,mean_absolute,' more/cases.csv
+grep -q '^point-to-surface,mean,12,zone,mean,3,' more/estimators.csv
+[ -s more/estimators.md ]
+grep -q ',second-scan,1,surface_distance,zone,mean,' plain/cases.csv
+grep -q '^| scanner floor | anchor | 0\.' plain/scores.md
+grep -q 'The performer floor is unknown: ' plain/scores.md
+expect_code 2 "estimator 'best' is unknown; there are: point-to-surface, " "$mimik" evaluate work1 --expression 12 --estimator best
+expect_code 2 "region 'ear' is unknown" "$mimik" evaluate work1 --expression 12 --region ear
+claim "estimators that are asked for add rows, are checked against the truth, and change no other row; anchors stand in the tables"
+"$mimik" help estimators | while read -r line; do
+  grep -qxF "$line" "$page" || fail "$page lacks: $line"
+done
+claim "the page of estimators has the definitions that the program prints"
 
 "$mimik" evaluate work1 --au au12_l --dry-run --quiet >/dev/null
 claim "an expression may be typed in every way in which it is written"

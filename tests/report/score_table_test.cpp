@@ -153,6 +153,31 @@ TEST(ScoreTables, of_several_expressions_name_the_one_whose_lips_are_worst) {
     EXPECT_THAT(to_markdown(report), HasSubstr("| default | one source | 5.5 (AU27 9.8) |"));
 }
 
+TEST(ScoreTables, print_the_anchors_beside_every_score_and_say_which_are_unknown) {
+    auto report = smile_report();
+    report.anchors = {{"second-scan", "scanner floor", {{"12", 0.1}}, {{"12", 3}}, ""},
+                      {"repeated-expression", "performer floor", {}, {}, "nobody smiles twice"}};
+    const auto markdown = to_markdown(report);
+    EXPECT_THAT(markdown, HasSubstr("| scanner floor | anchor | 0.95 | 0.950 |  |  |  |  |\n"));  // 1 - 0.1 / 2
+    EXPECT_THAT(markdown, HasSubstr("| performer floor | anchor | unknown |  |"));
+    EXPECT_THAT(markdown, HasSubstr("| scanner floor | anchor | 0.10 |\n"));
+    EXPECT_THAT(markdown, HasSubstr("The performer floor is unknown: nobody smiles twice. Published: 0.7 to 1.1 mm"));
+    EXPECT_THAT(markdown, Not(HasSubstr("The scanner floor is unknown")));
+    EXPECT_THAT(markdown, Not(HasSubstr("true-field reference is unknown")));
+    const auto anchors = json::parse(to_json(report)).at("anchors");
+    EXPECT_EQ(anchors.at(0).at("mm").at("12"), 0.1);
+    EXPECT_DOUBLE_EQ(anchors.at(0).at("explained").at("12").get<double>(), 0.95);
+    EXPECT_EQ(anchors.at(0).at("targets").at("12"), 3);
+    EXPECT_TRUE(anchors.at(0).at("unknown").is_null());
+    EXPECT_TRUE(anchors.at(1).at("mm").at("12").is_null());
+    EXPECT_EQ(anchors.at(1).at("published_mm"), (json{0.7, 1.1}));
+    EXPECT_THAT(to_csv(report), HasSubstr(",face_over_hole,second-scan_mm,repeated-expression_mm\n"));
+    EXPECT_THAT(to_csv(report), HasSubstr("20.000000,,0.100000,\n"));
+    report.rows.pop_back();
+    report.truth.reset();
+    EXPECT_THAT(to_markdown(report), HasSubstr("The true-field reference is unknown: the database has no truth."));
+}
+
 TEST(ScoreTables, promise_one_distance_where_no_truth_is_known_and_list_the_failures) {
     auto report = smile_report();
     for (auto* row : {&report.nothing, &report.rows[0], &report.rows[1]}) {
