@@ -70,7 +70,7 @@ std::string fault_of_method(const std::string& name, const std::vector<std::stri
 
 std::string methods_text(bool colours) {
     using animation::MethodGroup;
-    constexpr std::size_t widest_name = 29;
+    constexpr std::size_t widest_name = 30;
     const auto model_names = model_method_names();
     const auto methods = animation::known_methods();
     std::string text =

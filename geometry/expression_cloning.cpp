@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 namespace mimik::geometry {
 
 void ExpressionCloningOptions::check() const {
+    if (rings < 1) throw InputError(fmt::format("rings is {}; give 1 or more", rings));
     if (!(most_scale >= 1 && std::isfinite(most_scale)))
         throw InputError(fmt::format("most_scale is {}; give 1 or more", most_scale));
     if (!(flat_share >= 0 && flat_share < 1))
@@ -35,9 +38,28 @@ std::vector<std::vector<std::uint32_t>> neighbours(std::size_t vertices, std::sp
     return around;
 }
 
-/// The edge that lies flattest on the source, so that its direction is sure.
-std::uint32_t longest_edge(std::span<const Point> vertices, std::uint32_t v, const Vector& normal,
-                           std::span<const std::uint32_t> ring) {
+/// The vertices that so many edges or fewer lead to, but for the vertex itself.
+std::vector<std::uint32_t> surroundings(const std::vector<std::vector<std::uint32_t>>& around, std::uint32_t v,
+                                        int rings, std::vector<std::uint32_t>& seen) {
+    std::vector<std::uint32_t> found = {v};
+    seen[v] = v;
+    for (std::size_t first = 0; rings > 0; --rings)
+        for (const std::size_t last = found.size(); first < last; ++first)
+            for (const auto other : around[found[first]])
+                if (std::exchange(seen[other], v) != v) found.push_back(other);
+    found.erase(found.begin());
+    return found;
+}
+
+Vector mean_normal(std::span<const Vector> normals, std::uint32_t v, std::span<const std::uint32_t> ring) {
+    Vector sum = normals[v];
+    for (const auto other : ring) sum += normals[other];
+    return sum.normalized();
+}
+
+/// The vertex whose direction is the surest: the farthest in the source's tangent plane.
+std::uint32_t farthest(std::span<const Point> vertices, std::uint32_t v, const Vector& normal,
+                       std::span<const std::uint32_t> ring) {
     std::uint32_t longest = v;
     double length2 = 0;
     for (const auto other : ring) {
@@ -107,11 +129,13 @@ std::vector<Vector> cloned_motion(std::span<const Point> source_mm, std::span<co
     const auto source_normals = vertex_normals(source_mm, triangles);
     const auto target_normals = vertex_normals(target_mm, triangles);
     std::vector<Vector> cloned(motion_mm.begin(), motion_mm.end());
+    std::vector<std::uint32_t> seen(cloned.size(), std::numeric_limits<std::uint32_t>::max());
     for (std::uint32_t v = 0; v < cloned.size(); ++v) {
-        const auto& ring = around[v];
-        const auto edge = longest_edge(source_mm, v, source_normals[v], ring);
-        const auto from = local_axes(source_normals[v], source_mm[edge] - source_mm[v]);
-        const auto to = local_axes(target_normals[v], target_mm[edge] - target_mm[v]);
+        const auto ring = surroundings(around, v, options.rings, seen);
+        const auto source_normal = mean_normal(source_normals, v, ring);
+        const auto edge = farthest(source_mm, v, source_normal, ring);
+        const auto from = local_axes(source_normal, source_mm[edge] - source_mm[v]);
+        const auto to = local_axes(mean_normal(target_normals, v, ring), target_mm[edge] - target_mm[v]);
         if (!from || !to) continue;
         const Vector scale = scales(box(source_mm, v, ring, *from), box(target_mm, v, ring, *to), options);
         cloned[v] = *to * scale.cwiseProduct(from->transpose() * motion_mm[v]);

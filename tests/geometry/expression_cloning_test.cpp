@@ -32,6 +32,7 @@ protected:
 };
 
 TEST_F(ExpressionCloning, gives_the_source_its_own_motion_back) {
+    EXPECT_LT(gap_mm(Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(), {.rings = 1}), rounding);
     EXPECT_LT(gap_mm(Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()), rounding);
 }
 
@@ -53,6 +54,8 @@ TEST_F(ExpressionCloning, keeps_the_motion_where_a_vertex_has_no_axes_and_refuse
     EXPECT_THROW((void)cloned_motion(sheet_.rest_mm, std::span(motion_).first(3), sheet_.rest_mm, sheet_.triangles),
                  InputError);
     EXPECT_THROW((void)cloned_motion(sheet_.rest_mm, motion_, sheet_.rest_mm, sheet_.triangles, {.most_scale = 0.5}),
+                 InputError);
+    EXPECT_THROW((void)cloned_motion(sheet_.rest_mm, motion_, sheet_.rest_mm, sheet_.triangles, {.rings = 0}),
                  InputError);
 }
 
