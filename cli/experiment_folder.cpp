@@ -35,7 +35,8 @@ std::vector<fs::path> results_in(const fs::path& root) {
         files.push_back(root / name);
     std::error_code none;
     std::vector<fs::path> tables;
-    for (const auto& entry : fs::directory_iterator(root / "tables", none)) tables.push_back(entry.path());
+    for (const auto* folder : {"statistics", "tables"})
+        for (const auto& entry : fs::directory_iterator(root / folder, none)) tables.push_back(entry.path());
     std::sort(tables.begin(), tables.end());
     files.insert(files.end(), tables.begin(), tables.end());
     return files;
@@ -110,6 +111,13 @@ nlohmann::ordered_json configuration_of(const ExperimentFile& file, const evalua
     document["max_sources"] = plan.max_sources;
     document["zones"] = to_string(plan.zones);
     document["whole_face"] = plan.whole_face;
+    document["on_itself"] = plan.on_itself;
+    auto& estimators = document["estimators"] = nlohmann::ordered_json::array();
+    for (const auto& choice : plan.estimators) estimators.push_back(evaluation::to_string(choice));
+    document["regions"] = plan.regions;
+    document["metrics"] = plan.metrics.metrics;
+    document["area_weighted"] = plan.metrics.area_weighted;
+    document["alignment"] = evaluation::to_string(plan.alignment);
     document["resamples"] = file.resamples;
     document["confidence"] = file.confidence;
     return document;
@@ -201,6 +209,11 @@ PlannedExperiment planned(const ExperimentFile& file, const evaluation::Performa
     options.reference = file.reference;
     options.whole_face = file.whole_face;
     options.zones = file.zones;
+    options.on_itself = file.on_itself;
+    options.estimators = file.estimators;
+    options.regions = file.regions;
+    options.metrics = file.metrics;
+    options.alignment = file.alignment;
     options.max_sources = file.sources.next;
     options.targets = at(file, "subjects.targets", [&] { return names_of(file.targets, workspace); });
     options.sources = at(file, "subjects.sources", [&] { return names_of(file.sources, workspace); });
@@ -209,6 +222,12 @@ PlannedExperiment planned(const ExperimentFile& file, const evaluation::Performa
         at(file, "", [&] { return evaluation::plan_experiment(workspace, catalogue, options, reader.has_truth()); });
     experiment.identity = identity_of(file, reader, catalogue, experiment.plan);
     return experiment;
+}
+
+facs::FacsCatalogue catalogue_of(const ExperimentFile& file) {
+    auto catalogue = file.catalogue.empty() ? facs::builtin_catalogue() : facs::read_catalogue(file.catalogue);
+    if (file.emotions.empty()) return catalogue;
+    return at(file, "emotions", [&] { return catalogue.with_emotions(file.emotions); });
 }
 
 fs::path workspace_of(const ExperimentFile& file, const ExperimentFolder& folder) {

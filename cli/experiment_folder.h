@@ -16,7 +16,7 @@ namespace mimik::cli {
 ///   workspace/        preprocessed faces, where the experiment names a database
 ///   rows.part         while it runs: rows as they come, to go on with (evaluation/case_store.h)
 ///   experiment.json   what was run: configuration, inputs by hash, versions; the same bytes for the same experiment
-///   rows.csv, rows.sqlite, scores.json, scores.csv, summary.md, tables/*.tex
+///   rows.csv, rows.sqlite, scores.json, scores.csv, summary.md, statistics/*.csv, tables/*.tex
 ///   manifest.json     digests of all those: it is there when the run is whole
 ///   provenance.json   command, host and time: the one file that differs from run to run
 class ExperimentFolder {
@@ -56,6 +56,9 @@ struct PlannedExperiment {
 [[nodiscard]] PlannedExperiment planned(const evaluation::ExperimentFile& file,
                                         const evaluation::PerformanceReader& reader,
                                         const facs::FacsCatalogue& catalogue);
+
+/// The built-in catalogue or the file's own, with the emotions that it asks for. @throws InputError as read_catalogue.
+[[nodiscard]] facs::FacsCatalogue catalogue_of(const evaluation::ExperimentFile& file);
 
 /// The workspace of a file's experiment: its own, or the one in the results' folder.
 [[nodiscard]] std::filesystem::path workspace_of(const evaluation::ExperimentFile& file,

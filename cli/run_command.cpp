@@ -24,11 +24,14 @@
 #include "cli/notes.h"
 #include "database/known_databases.h"
 #include "database/scan_database.h"
+#include "evaluation/anchors.h"
 #include "evaluation/case_store.h"
+#include "evaluation/comparison.h"
 #include "evaluation/experiment.h"
 #include "evaluation/experiment_file.h"
 #include "io/json_values.h"
 #include "preprocessing/preprocess_run.h"
+#include "report/comparison_table.h"
 #include "report/latex_tables.h"
 #include "report/rows_files.h"
 #include "report/score_table.h"
@@ -147,8 +150,27 @@ std::string provenance(const Arguments& arguments, const evaluation::ExperimentF
            "\n";
 }
 
+/// What chance could have made of the differences; empty where no two methods have a case in common.
+std::string write_statistics(const ExperimentFolder& folder, const evaluation::CaseStore& store,
+                             const evaluation::ExperimentFile& file) {
+    evaluation::ComparisonOptions options;
+    options.seed = file.seed;
+    options.resamples = file.resamples;
+    options.confidence = file.confidence;
+    const auto measures = [&](const auto& visit) {
+        store.read([&](const evaluation::CaseRow& row) {
+            if (row.estimator != evaluation::run_estimator && !evaluation::is_anchor(row.key.method)) visit(row);
+        });
+    };
+    const auto comparison = evaluation::compare_methods(measures, options);
+    base::write_atomically(folder.root() / "statistics" / "methods.csv", report::methods_csv(comparison));
+    base::write_atomically(folder.root() / "statistics" / "differences.csv", report::differences_csv(comparison));
+    base::write_atomically(folder.root() / "tables" / "intervals.tex", report::intervals_latex(comparison, options));
+    return report::to_markdown(comparison, options);
+}
+
 void write_results(const ExperimentFolder& folder, const evaluation::CaseStore& store,
-                   const evaluation::ExperimentReport& report) {
+                   const evaluation::ExperimentFile& file, const evaluation::ExperimentReport& report) {
     const auto read = [&](const auto& visit) { store.read(visit); };
     report::write_rows_csv(folder.rows(), read);
     report::write_rows_sqlite(folder.root() / "rows.sqlite", read);
@@ -156,7 +178,8 @@ void write_results(const ExperimentFolder& folder, const evaluation::CaseStore& 
     base::write_atomically(folder.root() / "tables" / "error_mm.tex", report::error_latex(report));
     base::write_atomically(folder.root() / "scores.json", report::to_json(report));
     base::write_atomically(folder.root() / "scores.csv", report::to_csv(report));
-    base::write_atomically(folder.summary(), report::to_markdown(report));
+    const auto statistics = write_statistics(folder, store, file);
+    base::write_atomically(folder.summary(), report::to_markdown(report) + "\n" + statistics);
 }
 
 int say_result(const Arguments& arguments, const ExperimentFolder& folder) {
@@ -205,7 +228,7 @@ int run(const Arguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     const auto file = experiment_of(arguments);
     const ExperimentFolder folder(arguments.output);
-    const auto catalogue = facs::builtin_catalogue();
+    const auto catalogue = catalogue_of(file);
     const auto place = workspace_of(file, folder);
     check_output_folder(folder.root(), arguments.dry_run);
     if (arguments.dry_run && file.workspace.empty() && !base::is_there(place / "workspace.json")) {
@@ -235,7 +258,7 @@ int run(const Arguments& arguments) {
             auto report = run_units(arguments, reader, catalogue, experiment.plan, store);
             report.failures.insert(report.failures.begin(), unusable.begin(), unusable.end());
             if (!arguments.common.quiet) say_notes(report.remarks);
-            write_results(folder, store, report);
+            write_results(folder, store, file, report);
         }
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         base::write_atomically(folder.provenance(), provenance(arguments, file, place, seconds));

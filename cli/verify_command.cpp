@@ -108,7 +108,7 @@ int run(const Arguments& arguments) {
         arguments.workspace.empty() ? io::read_field<std::string>(recorded, "workspace") : arguments.workspace;
     auto differences = folder.damage();
     const auto file = evaluation::read_experiment_file(experiment_file);
-    const auto catalogue = facs::builtin_catalogue();
+    const auto catalogue = catalogue_of(file);
     const preprocessing::Workspace workspace(place);
     const evaluation::PerformanceReader reader(workspace);
     const auto experiment = planned(file, reader, catalogue);

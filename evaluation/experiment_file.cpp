@@ -34,6 +34,16 @@ public:
         refuse(*table_.get(key), fmt::format("'{}{}' {}", prefix_, key, what));
     }
 
+    /// Runs what may refuse a value, and puts before the refusal the line of the value.
+    template <class Work>
+    void checked(const toml::node& node, const Work& work) const {
+        try {
+            work();
+        } catch (const InputError& e) {
+            refuse(node, e.what());
+        }
+    }
+
     void only(std::initializer_list<std::string_view> known) const {
         const auto place = prefix_.empty() ? "here" : fmt::format("in [{}]", prefix_.substr(0, prefix_.size() - 1));
         for (const auto& [key, node] : table_)
@@ -148,11 +158,8 @@ SubjectChoice read_choice(const Section& section, const std::string& key, bool s
 
 void read_methods(const Section& section, ExperimentFile& file) {
     section.each("methods", [&](const toml::node& element) {
-        try {
-            file.methods.push_back(animation::method_by_name(section.text("methods", element)));
-        } catch (const InputError& e) {
-            section.refuse(element, e.what());
-        }
+        const auto name = section.text("methods", element);
+        section.checked(element, [&] { file.methods.push_back(animation::method_by_name(name)); });
     });
 }
 
@@ -166,7 +173,19 @@ void read_expressions(const Section& section, ExperimentFile& file) {
 }
 
 void read_evaluation(const Section& section, ExperimentFile& file) {
-    section.only({"zones", "whole_face", "reference"});
+    section.only(
+        {"zones", "whole_face", "reference", "estimators", "regions", "metrics", "area_weighted", "alignment"});
+    section.each("estimators", [&](const toml::node& element) {
+        const auto name = section.text("estimators", element);
+        section.checked(element, [&] { file.estimators.push_back(estimator_by_name(name)); });
+    });
+    if (auto regions = section.texts("regions"); !regions.empty()) file.regions = std::move(regions);
+    if (auto metrics = section.texts("metrics"); !metrics.empty()) file.metrics.metrics = std::move(metrics);
+    section.take("area_weighted", file.metrics.area_weighted);
+    std::string alignment;
+    section.take("alignment", alignment);
+    if (!alignment.empty())
+        section.checked(*section.find("alignment"), [&] { file.alignment = alignment_by_name(alignment); });
     std::string zones;
     section.take("zones", zones);
     const auto all = {ZoneSource::automatic, ZoneSource::truth, ZoneSource::data, ZoneSource::catalogue};
@@ -191,8 +210,8 @@ void read_statistics(const Section& section, ExperimentFile& file) {
 }
 
 void read_document(const Section& document, ExperimentFile& file) {
-    document.only({"schema", "database", "workspace", "unit", "expressions", "methods", "magnitudes", "seed",
-                   "subjects", "evaluation", "statistics"});
+    document.only({"schema", "database", "workspace", "unit", "catalogue", "emotions", "expressions", "methods",
+                   "magnitudes", "seed", "subjects", "evaluation", "statistics"});
     const auto* schema = document.find("schema");
     if (!schema) throw InputError(fmt::format("{}:1: 'schema' is missing; write schema = 1", file.name));
     if (schema->value_exact<std::int64_t>() != 1) document.refuse("schema", "is not 1, the one that this mimik knows");
@@ -204,6 +223,10 @@ void read_document(const Section& document, ExperimentFile& file) {
     if (!database.empty() && !workspace.empty())
         document.refuse("workspace", "stands beside 'database'; an experiment has one of them");
     document.take("unit", file.unit);
+    document.take("emotions", file.emotions);
+    std::string catalogue;
+    document.take("catalogue", catalogue);
+    file.catalogue = catalogue;
     read_expressions(document, file);
     read_methods(document, file);
     std::vector<double> magnitudes;
@@ -213,7 +236,8 @@ void read_document(const Section& document, ExperimentFile& file) {
     if (const auto* seed = document.find("seed"))
         file.seed = static_cast<std::uint64_t>(document.whole("seed", *seed, 0, INT64_MAX));
     document.below("subjects", [&](const Section& section) {
-        section.only({"targets", "sources"});
+        section.only({"targets", "sources", "on_itself"});
+        section.take("on_itself", file.on_itself);
         file.targets = read_choice(section, "targets", false);
         file.sources = read_choice(section, "sources", true);
     });
@@ -247,6 +271,10 @@ ExperimentFile parse_experiment(std::string_view text, const std::string& name) 
     ExperimentOptions options;
     options.methods = file.methods;
     options.magnitudes = file.magnitudes;
+    options.on_itself = file.on_itself;
+    options.estimators = file.estimators;
+    options.regions = file.regions;
+    options.metrics = file.metrics;
     try {
         options.check();
     } catch (const InputError& e) {
@@ -258,7 +286,7 @@ ExperimentFile parse_experiment(std::string_view text, const std::string& name) 
 ExperimentFile read_experiment_file(const std::filesystem::path& path) {
     constexpr std::uintmax_t largest = 1 << 20;
     auto file = parse_experiment(base::read_text(path, largest), path.string());
-    for (auto* folder : {&file.database, &file.workspace})
+    for (auto* folder : {&file.database, &file.workspace, &file.catalogue})
         if (!folder->empty() && folder->is_relative()) *folder = (path.parent_path() / *folder).lexically_normal();
     return file;
 }

@@ -26,16 +26,23 @@ struct ExperimentFile {
     std::string name;                           ///< of the file, for messages
     std::filesystem::path database = {};        ///< still to be preprocessed; relative paths start at the file's folder
     std::filesystem::path workspace = {};       ///< or this, preprocessed already
+    std::filesystem::path catalogue = {};       ///< another FACS catalogue; empty: the built-in one
+    std::string emotions = {};                  ///< what emotions are made of: "emfacs", "thesis"; empty: as usual
     std::string unit = {};                      ///< of the database's scans; empty: as its files say, else mm
     std::vector<std::string> expressions = {};  ///< as written: "12L", "HAPPY"
     std::vector<animation::MethodPointer> methods = {};
     std::vector<double> magnitudes = {1.0};
     std::uint64_t seed = 1;  ///< of everything that chance decides: resampling
     SubjectChoice targets = {}, sources = {};
+    bool on_itself = false;  ///< each source on its own face, and nobody on others
     ZoneSource zones = ZoneSource::automatic;
     bool whole_face = true;
-    bool reference = true;  ///< true fields beside the methods, where there is a truth
-    int resamples = 2000;   ///< of bootstrap and permutations
+    bool reference = true;                         ///< true fields beside the methods, where there is a truth
+    std::vector<EstimatorChoice> estimators = {};  ///< beside the rows that every experiment has
+    std::vector<std::string> regions = {"zone"};
+    MetricOptions metrics = {};
+    Alignment alignment = Alignment::given;
+    int resamples = 2000;  ///< of bootstrap and permutations
     double confidence = 0.95;
     std::map<std::string, unsigned> lines = {};  ///< of each key that was read: "subjects.targets"
 
