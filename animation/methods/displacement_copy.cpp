@@ -19,7 +19,7 @@ public:
 MethodPointer displacement_copy_method() {
     return std::make_shared<TemplateMethod>(TemplateMethod::Setting{
         .name = "displacement-copy",
-        .summary = "The source's millimetres, vertex by vertex of the template, neither turned nor scaled",
+        .summary = "The source's millimetres, vertex by vertex, neither turned nor scaled",
         .needs = SourceKind::one_source,
         .group = MethodGroup::simple,
         .make = [](const preprocessing::FaceTemplate&) { return std::make_shared<const Copy>(); }});
