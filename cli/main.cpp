@@ -2,6 +2,8 @@
 
 #include "cli/command.h"
 #include "cli/help_pages.h"
+#include "cli/method_options.h"
+#include "cli/option_faults.h"
 #include "cli/terminal.h"
 
 int main(int argc, char** argv) {
@@ -13,6 +15,7 @@ int main(int argc, char** argv) {
     app.footer(
         "Ends with 0: done; 1: done, with failures that are listed; 2: bad input; 3: the numbers allow no answer.");
     int exit_code = mimik::cli::exit_done;
+    mimik::cli::explain_choices("--method", mimik::cli::fault_of_method);
     // In the order of work.
     mimik::cli::add_synthesize_command(app, exit_code);
     mimik::cli::add_scans_command(app, exit_code);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -11,12 +12,16 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "cli/help_pages.h"
-#include "cli/method_options.h"
 #include "cli/nearest.h"
 #include "cli/terminal.h"
 
 namespace mimik::cli {
 namespace {
+
+std::map<std::string, FaultOfChoice>& faults_of_choices() {
+    static std::map<std::string, FaultOfChoice> faults;
+    return faults;
+}
 
 /// The longest name, which says most.
 std::string shown_name(const CLI::Option& option) {
@@ -51,7 +56,8 @@ std::string strict_whole(const std::string& option, bool natural, std::string& t
 
 std::string strict_choice(const std::string& option, const std::vector<std::string>& choices, const std::string& text) {
     if (std::find(choices.begin(), choices.end(), text) != choices.end()) return {};
-    if (option == "--method") throw InputError(fault_of_method(text, choices));
+    if (const auto own = faults_of_choices().find(option); own != faults_of_choices().end())
+        throw InputError(own->second(text, choices));
     throw InputError(fmt::format("{} is {}; give one of {}{}", option, base::in_quotes(text), fmt::join(choices, ", "),
                                  did_you_mean(text, choices)));
 }
@@ -163,6 +169,8 @@ std::string wrong_count(const CLI::App& command, const CLI::ParseError& error) {
 }
 
 }  // namespace
+
+void explain_choices(const std::string& option, FaultOfChoice fault) { faults_of_choices()[option] = fault; }
 
 void make_strict(CLI::App& program) {
     for (auto* option : program.get_options()) make_strict(*option);

@@ -11,6 +11,11 @@ namespace mimik::cli {
 /// words for every command: "--rows is '1e'; give a whole number". For a program and all its commands.
 void make_strict(CLI::App& program);
 
+/// What is wrong with a word that is none of an option's choices.
+using FaultOfChoice = std::string (*)(const std::string& word, const std::vector<std::string>& choices);
+/// Words of its own for one option, whatever the command; before anything is parsed.
+void explain_choices(const std::string& option, FaultOfChoice fault);
+
 /// What CLI11 would take otherwise than it is meant: "-.5" is a number.
 [[nodiscard]] std::vector<std::string> plain_words(std::vector<std::string> words);
 

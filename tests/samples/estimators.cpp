@@ -15,7 +15,7 @@ std::vector<evaluation::Measure> estimate(const std::string& name, const geometr
                                           const facs::Expression& expression,
                                           const preprocessing::AverageFace& average) {
     const auto& catalogue = facs::builtin_catalogue();
-    const auto drawn = evaluation::active_zone_from_catalogue(expression, average, catalogue);
+    const auto drawn = evaluation::shipped_active_zone(expression, average);
     const auto zone = evaluation::carry_zone(drawn, average, neutral);
     const auto surface = geometry::face_surface(neutral.grid, neutral.landmarks);
     const auto scored = evaluation::scored_target(surface, expressive.grid, expressive.neutral_from_scan, zone);
