@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/errors.h"
 #include "cli/command.h"
@@ -12,7 +13,8 @@ namespace mimik::cli {
 
 void add_help_command(CLI::App& app, int& exit_code) {
     struct Arguments {
-        std::string command, format = "text";
+        std::vector<std::string> command;
+        std::string format = "text";
     };
     const auto arguments = std::make_shared<Arguments>();
     auto* command = app.add_subcommand("help", "Say what a command does; the manual, the words for a shell");
@@ -33,9 +35,15 @@ void add_help_command(CLI::App& app, int& exit_code) {
             return;
         }
         if (name.empty()) return print_help(app);
-        for (const auto* one : app.get_subcommands({}))
-            if (one->get_name() == name) return print_help(*one);
-        throw InputError(unknown_command(app, name));
+        const CLI::App* called = &app;
+        for (const auto& word : name) {
+            const auto commands = called->get_subcommands({});
+            const auto it = std::find_if(commands.begin(), commands.end(),
+                                         [&](const CLI::App* one) { return one->get_name() == word; });
+            if (it == commands.end()) throw InputError(unknown_command(*called, word));
+            called = *it;
+        }
+        print_help(*called);
     });
 }
 
