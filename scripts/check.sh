@@ -99,7 +99,7 @@ check_sanitizers() {
 
 # The programs whose tests use several threads, with plain threads in the place of TBB (base/executor_threads.cpp).
 check_threads() {
-  local programs=(test_base test_geometry test_database test_synthesis test_preprocessing test_modeling test_animation
+  local programs=(test_base test_geometry test_capture test_database test_synthesis test_preprocessing test_modeling test_animation
     test_builtin test_evaluation test_report)
   configure tsan
   cmake --build --preset tsan --target "${programs[@]}"
