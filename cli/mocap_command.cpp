@@ -12,33 +12,29 @@
 #include "base/text.h"
 #include "capture/motion_file.h"
 #include "cli/command.h"
+#include "cli/mocap_commands.h"
 #include "cli/notes.h"
 #include "database/hidden_subjects.h"
 #include "io/json_values.h"
 
 namespace mimik::cli {
+
+void Recording::add_options(CLI::App& command) {
+    command.add_option("TAKE", file, "Recording of markers: .c3d .trc .csv (docs/formats.md)")->required();
+    command.add_option("--unit", unit, "Of the coordinates, whatever the file says: mm, cm, m or inch");
+    command.add_option("--rate", rate_hz, "Frames a second, whatever the file says");
+}
+
+capture::MotionFile Recording::read() const {
+    database::refuse_hidden_file(file);
+    capture::MotionReadOptions options;
+    if (!unit.empty()) options.unit = io::parse_length_unit(unit);
+    options.rate_hz = rate_hz;
+    check_by_option({{"rate_hz", "--rate"}}, [&] { options.check(); });
+    return capture::read_motion(file, options);
+}
+
 namespace {
-
-/// How a recording is read, in all of these commands.
-struct Recording {
-    std::filesystem::path file;
-    std::string unit;
-    std::optional<double> rate_hz;
-
-    void add_options(CLI::App& command) {
-        command.add_option("TAKE", file, "Recording of markers: .c3d .trc .csv (docs/formats.md)")->required();
-        command.add_option("--unit", unit, "Of the coordinates, whatever the file says: mm, cm, m or inch");
-        command.add_option("--rate", rate_hz, "Frames a second, whatever the file says");
-    }
-    [[nodiscard]] capture::MotionFile read() const {
-        database::refuse_hidden_file(file);
-        capture::MotionReadOptions options;
-        if (!unit.empty()) options.unit = io::parse_length_unit(unit);
-        options.rate_hz = rate_hz;
-        check_by_option({{"rate_hz", "--rate"}}, [&] { options.check(); });
-        return capture::read_motion(file, options);
-    }
-};
 
 /// Gaps in words: their number, and the marker that is missing most.
 std::string gaps_in_words(const capture::MarkerSequence& markers, const std::vector<capture::MarkerGap>& gaps) {
@@ -177,11 +173,14 @@ void add_convert(CLI::App& group, int& exit_code) {
 }  // namespace
 
 void add_mocap_command(CLI::App& app, int& exit_code) {
-    auto* group = app.add_subcommand("mocap", "Recordings of markers: what is in them, other formats");
+    auto* group = app.add_subcommand("mocap", "Recordings of markers: what is in them, other formats, other faces");
     group->require_subcommand(1);
     group->footer("All of them take --json, --quiet and --threads; 'mimik mocap COMMAND --help' says what else.");
     add_info(*group, exit_code);
     add_convert(*group, exit_code);
+    add_mocap_clean(*group, exit_code);
+    add_mocap_retarget(*group, exit_code);
+    add_mocap_markers(*group, exit_code);
 }
 
 }  // namespace mimik::cli

@@ -20,7 +20,7 @@ claim "an option that there is not is named with the nearest, before anything th
 expect_line $'no command \'distnace\'\ndid you mean distance?' "$mimik" distnace low.obj high.obj
 expect_line $'no command \'preproces\'\ndid you mean preprocess?' "$mimik" help preproces
 expect_line "a command is missing; 'mimik --help' lists them" "$mimik"
-expect_line $'no command \'inof\'\ndid you mean info?\n\'mimik mocap --help\' lists all' "$mimik" mocap inof
+expect_line $'no command \'inf\'\ndid you mean info?\n\'mimik mocap --help\' lists all' "$mimik" mocap inf
 expect_line $'--fames: is no option of \'mimik mocap convert\'\ndid you mean --frames?' "$mimik" mocap convert --fames
 expect_line "a command is missing; 'mimik mocap --help' lists them" "$mimik" mocap
 claim "so is a command, and a command of a command"
