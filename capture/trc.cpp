@@ -145,7 +145,10 @@ void Reader::read_row(const Fields& fields) {
                         "them by tabs",
                         fields.size(), 2 + 3 * names_.size()));
     const auto frame = base::parse_integer(fields[0]);
-    if (!frame) lines_.fail(fmt::format("Frame# is {}, not a whole number", base::in_quotes(fields[0])));
+    constexpr std::int64_t most_frame_number = std::int64_t{1} << 40;
+    if (!frame || *frame > most_frame_number || *frame < -most_frame_number)
+        lines_.fail(
+            fmt::format("Frame# is {}; give a whole number up to {}", base::in_quotes(fields[0]), most_frame_number));
     if (rows_ == 0) first_frame_ = *frame;
     if (last_frame_ && *frame != *last_frame_ + 1) ++jumps_;
     last_frame_ = frame;
