@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <unistd.h>
 
@@ -16,7 +17,8 @@ namespace mimik::cli {
 
 void add_help_command(CLI::App& app, int& exit_code) {
     struct Arguments {
-        std::string command, format = "text";
+        std::vector<std::string> command;
+        std::string format = "text";
     };
     const auto arguments = std::make_shared<Arguments>();
     auto* command = app.add_subcommand("help", "Say what a command does; the manual, the words for a shell");
@@ -33,7 +35,7 @@ void add_help_command(CLI::App& app, int& exit_code) {
         exit_code = exit_done;
         const auto& name = arguments->command;
         if (arguments->format == "json") {
-            if (name != "estimators")
+            if (name != std::vector<std::string>{"estimators"})
                 throw InputError("--format json is of 'mimik help estimators' alone; leave it out");
             raw_output() << report::estimators_json();
             return;
@@ -48,17 +50,23 @@ void add_help_command(CLI::App& app, int& exit_code) {
             return;
         }
         if (name.empty()) return print_help(app);
-        if (name == "methods") {
+        if (name == std::vector<std::string>{"methods"}) {
             raw_output() << methods_text(shows_colours(STDOUT_FILENO));
             return;
         }
-        if (name == "estimators") {
+        if (name == std::vector<std::string>{"estimators"}) {
             raw_output() << report::estimators_markdown();
             return;
         }
-        for (const auto* one : app.get_subcommands({}))
-            if (one->get_name() == name) return print_help(*one);
-        throw InputError(unknown_command(app, name));
+        const CLI::App* called = &app;
+        for (const auto& word : name) {
+            const auto commands = called->get_subcommands({});
+            const auto it = std::find_if(commands.begin(), commands.end(),
+                                         [&](const CLI::App* one) { return one->get_name() == word; });
+            if (it == commands.end()) throw InputError(unknown_command(*called, word));
+            called = *it;
+        }
+        print_help(*called);
     });
 }
 

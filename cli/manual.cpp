@@ -1,4 +1,5 @@
 // The manual page and the completions of the shells, of the same pages as the help.
+#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -42,6 +43,23 @@ std::string short_name(const CommandPage& program, const CommandPage& command) {
     return command.name.substr(program.name.size() + 1);
 }
 
+/// A command of the program with what the commands have that it has itself ("mocap info"): each option once.
+CommandPage with_its_commands(CommandPage page) {
+    const auto has = [&](const OptionPage& option) {
+        return std::any_of(page.options.begin(), page.options.end(),
+                           [&](const OptionPage& other) { return other.names.back() == option.names.back(); });
+    };
+    for (const auto& command : page.commands)
+        for (const auto& option : command.options)
+            if (!has(option)) page.options.push_back(option);
+    return page;
+}
+std::vector<CommandPage> merged_commands(const CommandPage& program) {
+    std::vector<CommandPage> commands;
+    for (const auto& command : program.commands) commands.push_back(with_its_commands(command));
+    return commands;
+}
+
 std::string names_of_commands(const CommandPage& program) {
     std::vector<std::string> names;
     for (const auto& command : program.commands) names.push_back(short_name(program, command));
@@ -83,11 +101,15 @@ std::string manual_page(const CommandPage& program, const std::string& version) 
                         roff(program.description));
     for (const auto& option : program.options) text += roff_of(option);
     text += ".SH COMMANDS\n";
-    for (const auto& command : program.commands) {
+    const auto add = [&](const CommandPage& command) {
         text += fmt::format(".SS {}\n.B {}\n.PP\n{}\n", roff(short_name(program, command)), roff(usage(command)),
                             roff(command.description));
         for (const auto& argument : command.arguments) text += roff_of(argument);
         for (const auto& option : command.options) text += roff_of(option);
+    };
+    for (const auto& command : program.commands) {
+        add(command);
+        for (const auto& its : command.commands) add(its);
     }
     text += fmt::format(".SH EXIT STATUS\n{}\n", roff(program.footer));
     text +=
@@ -109,7 +131,12 @@ std::string bash_completion(const CommandPage& program) {
         "    case \"${{COMP_WORDS[1]}} $previous\" in\n"
         "    'help help') words=\"{1}\" ;;\n",
         program.name, names_of_commands(program), words_of(program.options));
-    for (const auto& command : program.commands)
+    const auto commands = merged_commands(program);
+    for (const auto& command : commands)
+        if (!command.commands.empty())
+            text += fmt::format("    '{0} {0}') words=\"{1}\" ;;\n", short_name(program, command),
+                                names_of_commands(command));
+    for (const auto& command : commands)
         for (const auto& option : command.options)
             if (!option.choices.empty())
                 for (const auto& name : option.names)
@@ -119,7 +146,7 @@ std::string bash_completion(const CommandPage& program) {
         "    esac\n"
         "    if [ -z \"$words\" ] && [[ $current == -* ]]; then\n"
         "        case \"${COMP_WORDS[1]}\" in\n";
-    for (const auto& command : program.commands)
+    for (const auto& command : commands)
         text += fmt::format("        {}) words=\"{}\" ;;\n", short_name(program, command), words_of(command.options));
     return text + fmt::format(
                       "        esac\n"
@@ -140,11 +167,14 @@ std::string zsh_completion(const CommandPage& program) {
     text +=
         "    )\n    if (( CURRENT == 2 )); then\n        _describe command commands\n        return\n    fi\n"
         "    local command=$words[2]\n    shift words\n    (( CURRENT-- ))\n    case $command in\n";
-    for (const auto& command : program.commands) {
+    for (const auto& command : merged_commands(program)) {
         text += fmt::format("    {})\n        _arguments \\\n", short_name(program, command));
         for (const auto& option : command.options) text += zsh_option(option);
-        text += command.name == program.name + " help" ? "        '1:command:(" + names_of_commands(program) + ")' ;;\n"
-                                                       : "        '*:file:_files' ;;\n";
+        const auto& of = command.name == program.name + " help" ? program : command;
+        if (!of.commands.empty()) text += "        '1:command:(" + names_of_commands(of) + ")'";
+        text += of.commands.empty() || &of == &command
+                    ? fmt::format("{}        '*:file:_files' ;;\n", of.commands.empty() ? "" : " \\\n")
+                    : " ;;\n";
     }
     return text + fmt::format("    esac\n}}\n_{0} \"$@\"\n", program.name);
 }

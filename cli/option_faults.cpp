@@ -138,7 +138,7 @@ std::string name_in(const CLI::ParseError& error) {
 
 std::string missing(const CLI::App& command, const CLI::ParseError& error) {
     const auto name = name_in(error);
-    if (!command.get_subcommands({}).empty() && command.get_parent() == nullptr)
+    if (!command.get_subcommands({}).empty())
         return fmt::format("a command is missing; '{} --help' lists them", name_of(command));
     const auto* option = option_named(command, name);
     const auto shown = option ? shown_name(*option) : name;
@@ -191,22 +191,23 @@ std::string unknown_command(const CLI::App& program, const std::string& word) {
     std::vector<std::string> names;
     for (const auto* command : program.get_subcommands({})) names.push_back(command->get_name());
     return fmt::format("there is no command {}{}; '{} --help' lists all", base::in_quotes(word),
-                       did_you_mean(word, names), program.get_name());
+                       did_you_mean(word, names), name_of(program));
 }
 
 const CLI::App* called_command(const CLI::App& program, const std::vector<std::string>& words) {
     const auto commands = program.get_subcommands({});
     if (commands.empty() || words.empty() || words[0].starts_with('-')) return &program;
     for (const auto* command : commands)
-        if (command->get_name() == words[0]) return command;
+        if (command->get_name() == words[0]) return called_command(*command, {words.begin() + 1, words.end()});
     return nullptr;
 }
 
 std::string fault_of_names(const CLI::App& program, const std::vector<std::string>& words) {
-    const auto* command = called_command(program, words);
-    if (!command) return unknown_command(program, words[0]);
-    if (command == &program) return unknown_option(program, words);
-    return unknown_option(*command, {words.begin() + 1, words.end()});
+    for (const auto* command : program.get_subcommands({}))
+        if (!words.empty() && command->get_name() == words[0])
+            return fault_of_names(*command, {words.begin() + 1, words.end()});
+    if (!called_command(program, words)) return unknown_command(program, words[0]);
+    return unknown_option(program, words);
 }
 
 std::string fault_of_parser(const CLI::App& program, const std::vector<std::string>& words,

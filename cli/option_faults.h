@@ -19,8 +19,8 @@ void explain_choices(const std::string& option, FaultOfChoice fault);
 /// What CLI11 would take otherwise than it is meant: "-.5" is a number.
 [[nodiscard]] std::vector<std::string> plain_words(std::vector<std::string> words);
 
-/// The command that the words call: one of the program's, or the program itself where it has none. Null: it has
-/// commands, but the first word names none of them.
+/// The command that the words call: one of the program's, or one of that one's where it has some ("mocap info"), or the
+/// program itself where it has none. Null: there are commands, but a word names none of them.
 [[nodiscard]] const CLI::App* called_command(const CLI::App& program, const std::vector<std::string>& words);
 
 /// What is wrong with the command's name or the options' names, with the nearest that there is; empty: nothing. Found

@@ -99,8 +99,8 @@ check_sanitizers() {
 
 # The programs whose tests use several threads, with plain threads in the place of TBB (base/executor_threads.cpp).
 check_threads() {
-  local programs=(test_base test_geometry test_statistics test_database test_synthesis test_preprocessing test_modeling
-    test_animation test_builtin test_evaluation test_report)
+  local programs=(test_base test_geometry test_statistics test_capture test_database test_synthesis test_preprocessing
+    test_modeling test_animation test_builtin test_evaluation test_report)
   configure tsan
   cmake --build --preset tsan --target "${programs[@]}"
   ctest --preset tsan -j "$jobs" -R "^($(IFS='|'; echo "${programs[*]}"))\$"

@@ -20,7 +20,10 @@ claim "an option that there is not is named with the nearest, before anything th
 expect_line $'no command \'distnace\'\ndid you mean distance?' "$mimik" distnace low.obj high.obj
 expect_line $'no command \'preproces\'\ndid you mean preprocess?' "$mimik" help preproces
 expect_line "a command is missing; 'mimik --help' lists them" "$mimik"
-claim "so is a command"
+expect_line $'no command \'inf\'\ndid you mean info?\n\'mimik mocap --help\' lists all' "$mimik" mocap inf
+expect_line $'--fames: is no option of \'mimik mocap convert\'\ndid you mean --frames?' "$mimik" mocap convert --fames
+expect_line "a command is missing; 'mimik mocap --help' lists them" "$mimik" mocap
+claim "so is a command, and a command of a command"
 expect_line $'--kernel is \'r2log\'; give one of r, r2logr; did you mean r2logr?' "$mimik" warp --from a.csv --to b.csv c.csv -o d.csv --kernel r2log
 expect_line $'--method is \'thesi\'; give one of \ndid you mean thesis?' "$mimik" model WORK --method thesi
 expect_line $'--method is \'expression-cloning\'\nmakes no model that could be kept\nmimik evaluate' "$mimik" model WORK --method expression-cloning
@@ -70,11 +73,13 @@ grep -q "^  thesis-half  *\*" methods.txt && ! grep "^  deformation-transfer  *\
 ! awk 'length > 100' help.txt | grep . || fail "help is wider than 100 columns"
 ! "$mimik" --help | awk 'length > 110' | grep . || fail "a command has more than one line"
 commands=$("$mimik" --help | sed -n '/^Commands/,/^Options/s/^  \([a-z]*\) .*/\1/p')
-[ "$(echo $commands)" = "synthesize scans preprocess register animate model evaluate tune panels figure warp distance regions catalogue version help" ] || fail "order: $commands"
+[ "$(echo $commands)" = "synthesize scans preprocess register animate model evaluate run verify tune panels figure warp distance mocap regions catalogue version help" ] || fail "order: $commands"
 for command in $commands; do
   "$mimik" $command --help | grep -q "^Usage: mimik $command" || fail "usage of $command"
   [ "$command" = help ] || "$mimik" $command --help | grep -q -- "--json" || fail "--json of $command"
 done
+"$mimik" mocap convert --help >help.txt
+"$mimik" help mocap convert | cmp - help.txt
 claim "help is the same in every way in which it is asked for, commands stand in the order of work"
 
 "$mimik" version | grep -q '^compiler  *[A-Z]' && "$mimik" version | grep -q '^  VTK  *[0-9]'
@@ -116,4 +121,6 @@ complete_words() {  # words..., the last to be completed
 [ "$(complete_words mimik animate --combine p)" = parallel ] || fail "a choice in bash"
 [ "$(complete_words mimik help pre)" = preprocess ] || fail "help in bash"
 [ "$(complete_words mimik scans D)" = "" ] || fail "files are left to bash"
+[ "$(complete_words mimik mocap inf)" = info ] || fail "a command of a command in bash"
+[ "$(complete_words mimik mocap convert --fra)" = --frames ] || fail "its option in bash"
 claim "bash completes commands, options and choices"

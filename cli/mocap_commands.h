@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "capture/motion_file.h"
+#include "cli/command.h"
+
+namespace mimik::cli {
+
+/// The recording that a command of `mimik mocap` reads, and what goes before what its file says.
+struct Recording {
+    std::filesystem::path file;
+    std::string unit;
+    std::optional<double> rate_hz;
+
+    void add_options(CLI::App& command);
+    [[nodiscard]] capture::MotionFile read() const;
+};
+
+/// Commands of `mimik mocap` that live in files of their own.
+void add_mocap_clean(CLI::App& group, int& exit_code);
+void add_mocap_retarget(CLI::App& group, int& exit_code);
+void add_mocap_markers(CLI::App& group, int& exit_code);
+
+}  // namespace mimik::cli
