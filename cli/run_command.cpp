@@ -76,9 +76,9 @@ std::vector<facs::Expression> scans_needed(const evaluation::ExperimentFile& fil
             catalogue.find_expression(word) ? catalogue.expression(word) : *facs::parse_expression(word);
         add(expression);
         if (expression.own_word()) continue;
-        const auto units = catalogue.expression(word).units();
-        if (units.size() > 1)
-            for (const auto& unit : units) add(facs::Expression::of_units({{unit.unit, unit.side, false}}));
+        const auto named = catalogue.expression(word);
+        if (named.units().size() > 1)
+            for (const auto& unit : named.units()) add(facs::Expression::of_units({{unit.unit, unit.side, false}}));
     }
     return needed;
 }

@@ -124,7 +124,8 @@ TEST(BuiltinCatalogue, makes_emotions_of_table_3_3_where_that_set_is_chosen) {
     const auto thesis = builtin_catalogue().with_emotions("thesis");
     const auto of = [](const FacsCatalogue& catalogue, const std::string& name) {
         std::vector<int> numbers;
-        for (const auto& part : catalogue.expression(name).units()) numbers.push_back(part.unit);
+        const auto expression = catalogue.expression(name);
+        for (const auto& part : expression.units()) numbers.push_back(part.unit);
         return numbers;
     };
     using testing::ElementsAre;
