@@ -11,6 +11,7 @@
 #include "geometry/face_surface.h"
 #include "modeling/performance.h"
 #include "preprocessing/average_face.h"
+#include "preprocessing/face_template.h"
 
 namespace mimik::animation {
 
@@ -20,6 +21,9 @@ public:
     virtual ~Transfer() = default;
     /// @throws InputError, NumericalError if there is no answer for this face.
     [[nodiscard]] virtual geometry::DisplacementField on(const PreparedTarget& target) const = 0;
+    /// Per vertex of the target, on which lip it lies, so that who draws the face can leave out the surface between lips
+    /// that part (torn_lips); empty: not known. @throws as on().
+    [[nodiscard]] virtual std::vector<preprocessing::LipSide> lip_sides(const PreparedTarget&) const { return {}; }
 };
 
 /// What a method keeps of one performance: small, since an experiment holds those of all its subjects.

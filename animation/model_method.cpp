@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "animation/dense_field.h"
 #include "base/errors.h"
 #include "base/fields.h"
 
@@ -40,6 +41,10 @@ public:
                 throw NumericalError(
                     fmt::format("{}: a displacement is too large for a number", model.expression.name()));
         return field;
+    }
+    [[nodiscard]] std::vector<preprocessing::LipSide> lip_sides(const PreparedTarget& target) const override {
+        const auto& dense = model_of(lesson_).dense;
+        return dense ? animation::lip_sides(target, *dense) : std::vector<preprocessing::LipSide>();
     }
 
 private:

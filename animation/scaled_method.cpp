@@ -18,6 +18,9 @@ public:
         for (auto& displacement : field.mm) displacement *= magnitude_;
         return field;
     }
+    [[nodiscard]] std::vector<preprocessing::LipSide> lip_sides(const PreparedTarget& target) const override {
+        return scaled_->lip_sides(target);
+    }
 
 private:
     std::unique_ptr<const Transfer> scaled_;

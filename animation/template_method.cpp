@@ -52,6 +52,9 @@ public:
         }
         return dense_field(target, mean);
     }
+    [[nodiscard]] std::vector<preprocessing::LipSide> lip_sides(const PreparedTarget& target) const override {
+        return animation::lip_sides(target, {registrations_, {}});
+    }
 
 private:
     std::vector<LessonPointer> lessons_;

@@ -107,6 +107,7 @@ public:
         const PreparedTarget target(person.neutral, own && own->true_neutral ? &*own->true_neutral : nullptr);
         AnimatedFace animated;
         animated.field = animation::field_on(*transfer_, target);
+        animated.lip_sides = transfer_->lip_sides(target);
         for (auto& displacement : animated.field.mm) displacement *= magnitude_;
         animated.extent = geometry::field_extent(target.surface(), animated.field.mm);
         return animated;
