@@ -42,8 +42,9 @@ struct C3dWriteOptions {
 static_assert(base::lists_every_field<C3dWriteOptions>());
 
 /// In mm; frames beyond 65,535 by TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD and by POINT:LONG_FRAMES, names beyond
-/// 255 in LABELS2 and so on. Positions and residuals that are 32-bit reals read back as they were (on DEC those below
-/// 3e-39 become 0). @param name  of the file, for messages
+/// 255 in LABELS2 and so on. Positions that are 32-bit reals read back as they were (on DEC those below 3e-39
+/// become 0), residuals to 0.01 mm, or to 1/255 of the largest where that is more. @param name  of the file, for
+/// messages
 /// @throws InputError if a name is longer than 127 bytes, if there are more markers or names than a C3D can hold, or
 /// if a coordinate is beyond the range of the integers.
 [[nodiscard]] std::string encode_c3d(const MarkerSequence& markers, const std::string& name,

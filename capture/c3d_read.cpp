@@ -116,7 +116,7 @@ private:
 
     void read_parameters();
     std::size_t read_record(std::size_t at, std::map<int, std::string>& groups,
-                            std::vector<std::pair<int, std::pair<std::string, Parameter>>>& found) const;
+                            std::vector<std::pair<int, std::pair<std::string, Parameter>>>& found);
     void read_layout();
     void find_frames();
     [[nodiscard]] std::vector<std::pair<const char*, std::uint64_t>> stated_frames() const;
@@ -130,6 +130,7 @@ private:
     std::string name_;
     const MotionReadOptions& options_;
     Section section_;
+    std::uint64_t value_bytes_ = 0;  // of all parameters
     Layout layout_;
     std::vector<std::string> remarks_;
 };
@@ -169,7 +170,7 @@ void Reader::read_parameters() {
 
 /// Returns where the next record begins; 0 behind the last.
 std::size_t Reader::read_record(std::size_t at, std::map<int, std::string>& groups,
-                                std::vector<std::pair<int, std::pair<std::string, Parameter>>>& found) const {
+                                std::vector<std::pair<int, std::pair<std::string, Parameter>>>& found) {
     const auto left = [&](std::size_t from) { return bytes_.size() - std::min(bytes_.size(), from); };
     const auto need = [&](std::size_t from, std::size_t count) {
         if (left(from) < count)
@@ -212,6 +213,10 @@ std::size_t Reader::read_record(std::size_t at, std::map<int, std::string>& grou
             fail(fmt::format(
                 "byte {}: parameter {} has {} bytes, which go on behind the end of the file; it is truncated", p,
                 base::in_quotes(name), count));
+        // A section has 255 blocks at most; more is the same bytes again and again.
+        value_bytes_ += count;
+        if (value_bytes_ > 255 * c3d_block_bytes)
+            fail(fmt::format("byte {}: the parameters hold more than their section can; the file is damaged", p));
         parameter.values = bytes_.subspan(p, count);
         found.emplace_back(id, std::pair(std::move(name), std::move(parameter)));
     }

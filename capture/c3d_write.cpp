@@ -201,6 +201,16 @@ unsigned residual_steps(const MarkerSequence& markers, std::size_t frame, std::s
     return static_cast<unsigned>(std::clamp(steps, 0.0F, 255.0F));
 }
 
+/// The scale of reals is that of residuals alone, which are whole numbers up to 255.
+float residual_step_mm(const MarkerSequence& markers) {
+    constexpr float finest_mm = 0.01F, most_steps = 255.0F;
+    float largest_mm = 0;
+    for (std::size_t frame = 0; frame < markers.frames(); ++frame)
+        for (std::size_t marker = 0; marker < markers.markers(); ++marker)
+            if (markers.valid(frame, marker)) largest_mm = std::max(largest_mm, markers.residual_mm(frame, marker));
+    return std::max(finest_mm, largest_mm / most_steps);
+}
+
 void append_integers(Bytes& bytes, const MarkerSequence& markers, std::size_t frame, std::size_t marker, float scale,
                      const std::string& name) {
     if (!markers.valid(frame, marker)) {
@@ -224,8 +234,8 @@ void append_integers(Bytes& bytes, const MarkerSequence& markers, std::size_t fr
 std::string encode_c3d(const MarkerSequence& markers, const std::string& name, const C3dWriteOptions& options) {
     options.check();
     check_names(markers, name);
-    // The scale of reals is that of residuals alone; 0.01 mm keeps them from 0 to 2.55 mm.
-    const float scale = options.integer_step_mm ? static_cast<float>(*options.integer_step_mm) : -0.01F;
+    const float scale =
+        options.integer_step_mm ? static_cast<float>(*options.integer_step_mm) : -residual_step_mm(markers);
     // The number of the data's block has the same length whatever it is.
     const auto parameter_blocks = encode_parameters(markers, name, options, scale, 0).size() / c3d_block_bytes;
     const auto data_block = static_cast<unsigned>(2 + parameter_blocks);

@@ -218,6 +218,7 @@ MarkerSequence Reader::read_long(std::size_t marker_column) {
     std::vector<std::string> names;
     std::uint64_t rows = 0;
     while (rows_.next()) {
+        check_size(1, rows + 1);
         const auto& name = rows_.field(marker_column);
         if (name.empty()) rows_.fail("the marker has no name; give it one");
         const auto [it, is_new] = place.try_emplace(name, names.size());

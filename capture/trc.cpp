@@ -71,6 +71,7 @@ private:
     std::optional<std::int64_t> stated_frames_, stated_markers_, last_frame_;
     std::int64_t first_frame_ = 1;
     std::size_t rows_ = 0, jumps_ = 0;
+    std::uint64_t row_bytes_ = 0;
     std::vector<std::optional<Point>> samples_mm_;
 };
 
@@ -149,6 +150,14 @@ void Reader::read_row(const Fields& fields) {
     if (!frame || *frame > most_frame_number || *frame < -most_frame_number)
         lines_.fail(
             fmt::format("Frame# is {}; give a whole number up to {}", base::in_quotes(fields[0]), most_frame_number));
+    // A few short rows must not stand for a sea of missing samples.
+    constexpr std::uint64_t always = 1'000'000, samples_a_byte = 8;
+    row_bytes_ += lines_.line().size() + 1;
+    if ((rows_ + 1) * names_.size() > std::max(always, samples_a_byte * row_bytes_))
+        lines_.fail(
+            fmt::format("{} and {} by now, nearly all of them missing; it is damaged, or take out the markers "
+                        "that were never seen",
+                        base::counted(names_.size(), "marker"), base::counted(rows_ + 1, "frame")));
     if (rows_ == 0) first_frame_ = *frame;
     if (last_frame_ && *frame != *last_frame_ + 1) ++jumps_;
     last_frame_ = frame;

@@ -1,7 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <climits>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -9,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "base/errors.h"
 #include "base/file.h"
@@ -54,22 +50,6 @@ int say_plan(const Arguments& arguments, const evaluation::ExperimentPlan& plan)
     return exit_done;
 }
 
-/// What is removed when a signal ends the program: half a table is of no use to anybody.
-std::array<char, PATH_MAX> half_written{};
-
-void remove_at_signals(const std::filesystem::path& file) {
-    const auto name = file.string();
-    if (name.size() >= half_written.size()) return;
-    std::copy(name.begin(), name.end(), half_written.begin());
-    struct sigaction action {};
-    action.sa_handler = [](int signal) {
-        ::unlink(half_written.data());
-        ::raise(signal);  // which by now ends the program as ever
-    };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-}
-
 evaluation::ZoneSource zones_named(const std::string& name) {
     using evaluation::ZoneSource;
     for (const auto source : {ZoneSource::truth, ZoneSource::data, ZoneSource::catalogue})
@@ -97,9 +77,9 @@ void read_estimators(Arguments& arguments) {
 }
 
 /// How well each estimator follows the true error, from the cases on disk.
-void write_estimator_check(const std::filesystem::path& folder) {
-    const auto check = evaluation::check_estimators(
-        [&](const auto& visit) { (void)evaluation::read_case_rows(folder / "cases.csv", visit); });
+void write_estimator_check(const std::filesystem::path& folder, const std::filesystem::path& cases) {
+    const auto check =
+        evaluation::check_estimators([&](const auto& visit) { (void)evaluation::read_case_rows(cases, visit); });
     base::write_atomically(folder / "estimators.md", report::to_markdown(check));
     base::write_atomically(folder / "estimators.csv", report::to_csv(check));
 }
@@ -136,11 +116,10 @@ int run(Arguments& arguments) {
         arguments.output.empty() ? workspace.root() / "scores" : std::filesystem::path(arguments.output);
     check_output_folder(folder, arguments.dry_run);
     if (arguments.dry_run) return say_plan(arguments, plan);
+    const auto cases = folder / (options.on_itself ? "cases_on_itself.csv" : "cases.csv");
     evaluation::ExperimentReport report;
     {
         Progress progress(arguments.common, "evaluate", plan.units());
-        const auto cases = folder / (options.on_itself ? "cases_on_itself.csv" : "cases.csv");
-        remove_at_signals(cases.string() + ".part");
         report = evaluation::run_experiment(reader, catalogue, plan, cases,
                                             [&](const std::string& what) { progress.advance(what); });
     }
@@ -149,12 +128,11 @@ int run(Arguments& arguments) {
     base::write_atomically(stem.string() + ".md", markdown);
     base::write_atomically(stem.string() + ".csv", report::to_csv(report));
     base::write_atomically(stem.string() + ".json", json);
-    if (arguments.check_estimators) write_estimator_check(folder);
+    if (arguments.check_estimators) write_estimator_check(folder, cases);
     std::cout << (arguments.common.json ? json : markdown) << std::flush;
     if (!arguments.common.quiet) say_notes(report.remarks);
     if (!arguments.common.json && !arguments.common.quiet)
-        std::cerr << fmt::format("{:.1f} s; every case is in {}\n", report.seconds,
-                                 (folder / (options.on_itself ? "cases_on_itself.csv" : "cases.csv")).string());
+        std::cerr << fmt::format("{:.1f} s; every case is in {}\n", report.seconds, cases.string());
     return report.failures.empty() ? exit_done : exit_done_with_failures;
 }
 

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using evaluation::ExperimentFile;
 using evaluation::SubjectChoice;
 
-/// In the order in which they are made.
+/// Those that are there of the tables; the others, there or not.
 std::vector<fs::path> results_in(const fs::path& root) {
     std::vector<fs::path> files;
     for (const auto* name : {"experiment.json", "rows.csv", "rows.sqlite", "scores.json", "scores.csv", "summary.md"})
@@ -66,12 +66,26 @@ std::vector<std::string> names_of(const SubjectChoice& choice, const preprocessi
     return names;
 }
 
-/// Of every face that the experiment may read, as the workspace's marks have it; and of what belongs to them.
-nlohmann::ordered_json inputs_of(const evaluation::PerformanceReader& reader, const facs::FacsCatalogue& catalogue) {
+/// Neutrals, scans of the expressions, and of an emotion's AUs, of which zones are made.
+bool plays_a_part(const database::ScanId& id, const evaluation::ExperimentPlan& plan) {
+    if (id.neutral()) return true;
+    const auto shown = id.expression();
+    return std::any_of(plan.expressions.begin(), plan.expressions.end(), [&](const auto& planned) {
+        if (planned.expression == shown) return true;
+        const auto units = planned.expression.units();
+        return units.size() > 1 && std::any_of(units.begin(), units.end(), [&](const facs::UnitOnSide& unit) {
+                   return facs::Expression::of_units({{unit.unit, unit.side, false}}) == shown;
+               });
+    });
+}
+
+/// Of every face that the experiment may read, and of what belongs to them.
+nlohmann::ordered_json inputs_of(const evaluation::PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
+                                 const evaluation::ExperimentPlan& plan) {
     const auto& workspace = reader.workspace();
     std::vector<fs::path> files;
     for (const auto& id : workspace.scans())
-        if (!workspace.hidden(id.subject))
+        if (!workspace.hidden(id.subject) && plays_a_part(id, plan))
             for (const auto* ending : {".ply", ".json"}) files.emplace_back(workspace.stem(id).string() + ending);
     std::vector<std::string> digests(files.size());
     base::parallel_for_each(files.size(), [&](std::size_t k) { digests[k] = base::digest_of_file(files[k]).text(); });
@@ -129,7 +143,7 @@ std::string identity_of(const ExperimentFile& file, const evaluation::Performanc
     auto& versions = document["libraries"] = nlohmann::ordered_json::object();
     for (const auto& [name, version] : libraries()) versions[name] = version;
     document["experiment"] = configuration_of(file, plan);
-    document["inputs"] = inputs_of(reader, catalogue);
+    document["inputs"] = inputs_of(reader, catalogue, plan);
     if (const auto truth = reader.truth_origin())
         document["truth"] = {{"seed", truth->seed},           {"face_model", truth->face_model},
                              {"subjects", truth->subjects},   {"expressions", truth->expressions},
@@ -155,7 +169,16 @@ std::string difference(const nlohmann::json& there, const nlohmann::json& here) 
 bool ExperimentFolder::whole() const { return base::is_there(manifest()); }
 
 void ExperimentFolder::claim(const std::string& own) const {
-    if (!base::is_there(identity())) return base::write_atomically(identity(), own);
+    if (!base::is_there(identity())) {
+        if (base::is_there(part()))
+            throw InputError(fmt::format(
+                "{}: rows of an experiment that is not known lie there; remove them, or give --anew", part().string()));
+        return base::write_atomically(identity(), own);
+    }
+    require(own);
+}
+
+void ExperimentFolder::require(const std::string& own) const {
     const auto there = base::read_text(identity(), io::most_json_bytes);
     if (there == own) return;
     throw InputError(fmt::format(
@@ -165,10 +188,15 @@ void ExperimentFolder::claim(const std::string& own) const {
 }
 
 void ExperimentFolder::clear() const {
+    // In this order: the run is not whole, its rows are nobody's, and then the rest.
+    for (const auto& file : {manifest(), part()}) {
+        std::error_code fault;
+        fs::remove(file, fault);
+        if (fault) throw InputError(fmt::format("{}: cannot be removed ({})", file.string(), fault.message()));
+    }
     std::error_code none;
-    fs::remove(manifest(), none);  // first: from here on the run is not whole
     for (const auto& file : results_in(root_)) fs::remove(file, none);
-    for (const auto& file : {part(), provenance()}) fs::remove(file, none);
+    fs::remove(provenance(), none);
 }
 
 void ExperimentFolder::seal() const {
@@ -215,8 +243,13 @@ PlannedExperiment planned(const ExperimentFile& file, const evaluation::Performa
     options.metrics = file.metrics;
     options.alignment = file.alignment;
     options.max_sources = file.sources.next;
-    options.targets = at(file, "subjects.targets", [&] { return names_of(file.targets, workspace); });
-    options.sources = at(file, "subjects.sources", [&] { return names_of(file.sources, workspace); });
+    for (const auto& [key, choice, names] : {std::tuple{"subjects.targets", &file.targets, &options.targets},
+                                             std::tuple{"subjects.sources", &file.sources, &options.sources}})
+        *names = at(file, key, [&] {
+            auto chosen = names_of(*choice, workspace);
+            (void)evaluation::known_subjects(workspace, chosen);
+            return chosen;
+        });
     PlannedExperiment experiment;
     experiment.plan =
         at(file, "", [&] { return evaluation::plan_experiment(workspace, catalogue, options, reader.has_truth()); });

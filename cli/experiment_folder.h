@@ -35,6 +35,8 @@ public:
     [[nodiscard]] bool whole() const;
     /// Takes the experiment's identity as its own. @throws InputError if another one's is there, saying what differs.
     void claim(const std::string& identity) const;
+    /// @throws InputError if the identity is not there, or another one, saying what differs.
+    void require(const std::string& identity) const;
     /// Removes what a run of any experiment left, but the workspace.
     void clear() const;
     /// Lists the results with their digests: the run is whole.

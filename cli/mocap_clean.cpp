@@ -18,6 +18,7 @@
 #include "cli/mocap_commands.h"
 #include "cli/notes.h"
 #include "cli/terminal.h"
+#include "database/hidden_subjects.h"
 #include "geometry/statistics.h"
 #include "io/json_values.h"
 #include "io/landmark_io.h"
@@ -100,6 +101,7 @@ void print(const CleanArguments& arguments, const capture::MarkerSequence& marke
 
 int run_clean(const CleanArguments& arguments) {
     (void)capture::motion_format(arguments.output);  // before the work
+    arguments.recording.refuse_as_output(arguments.output);
     const auto file = arguments.recording.read();
     auto remarks = file.remarks;
     const auto add = [&](const std::vector<std::string>& more) {
@@ -116,6 +118,7 @@ int run_clean(const CleanArguments& arguments) {
     auto markers = filled.markers;
     std::vector<std::string> derived;
     if (!arguments.rest.empty()) {
+        database::refuse_hidden_file(arguments.rest);
         auto more = capture::derive_markers(markers, io::read_landmarks(arguments.rest), set);
         add(more.remarks);
         markers = std::move(more.markers);

@@ -34,6 +34,12 @@ capture::MotionFile Recording::read() const {
     return capture::read_motion(file, options);
 }
 
+void Recording::refuse_as_output(const std::filesystem::path& output) const {
+    std::error_code none;
+    if (std::filesystem::equivalent(file, output, none))
+        throw InputError(fmt::format("{}: is the recording itself; give the output another name", output.string()));
+}
+
 namespace {
 
 /// Gaps in words: their number, and the marker that is missing most.
@@ -123,6 +129,7 @@ capture::MarkerSequence frames_named(const capture::MarkerSequence& markers, con
 
 int run_convert(const ConvertArguments& arguments) {
     (void)capture::motion_format(arguments.output);  // before the work
+    arguments.recording.refuse_as_output(arguments.output);
     auto file = arguments.recording.read();
     auto markers = std::move(file.markers);
     if (!arguments.frames.empty()) markers = frames_named(markers, arguments.frames);

@@ -17,6 +17,8 @@ struct Recording {
 
     void add_options(CLI::App& command);
     [[nodiscard]] capture::MotionFile read() const;
+    /// @throws InputError if the output is the recording itself: what Mimik does not keep of it would be lost.
+    void refuse_as_output(const std::filesystem::path& output) const;
 };
 
 /// Commands of `mimik mocap` that live in files of their own.

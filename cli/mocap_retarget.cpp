@@ -11,6 +11,7 @@
 #include "capture/retarget.h"
 #include "cli/mocap_commands.h"
 #include "cli/notes.h"
+#include "database/hidden_subjects.h"
 #include "io/json_values.h"
 #include "io/landmark_io.h"
 
@@ -34,10 +35,12 @@ geometry::RadialKernel kernel_named(const std::string& name) {
 
 int run(const Arguments& arguments) {
     (void)capture::motion_format(arguments.output);  // before the work
+    arguments.recording.refuse_as_output(arguments.output);
     auto options = arguments.options;
     options.basis.kernel = kernel_named(arguments.kernel);
     check_by_option({{"radius_ratio", "--radius-ratio"}}, [&] { options.basis.check(); });
     const auto file = arguments.recording.read();
+    database::refuse_hidden_file(arguments.labels);
     const auto labels = io::read_landmarks(arguments.labels);
     std::optional<capture::Retargeted> made;
     check_by_option({{"rest_frame", "--rest-frame"}}, [&] { made = capture::retarget(file.markers, labels, options); });

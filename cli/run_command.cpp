@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include <fmt/chrono.h>
@@ -24,7 +23,6 @@
 #include "cli/notes.h"
 #include "database/known_databases.h"
 #include "database/scan_database.h"
-#include "evaluation/anchors.h"
 #include "evaluation/case_store.h"
 #include "evaluation/comparison.h"
 #include "evaluation/experiment.h"
@@ -91,7 +89,12 @@ std::vector<std::string> preprocess(const Arguments& arguments, const evaluation
     const auto database = database::open_database(file.database, unit);
     database::remember_database(database.root);
     preprocessing::PreprocessOptions options;
-    const auto wanted = scans_needed(file, catalogue);
+    std::vector<facs::Expression> wanted;
+    try {
+        wanted = scans_needed(file, catalogue);
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: {}", file.place("expressions"), e.what()));
+    }
     for (const auto& expression : wanted) {
         const bool there = std::any_of(database.scans.begin(), database.scans.end(),
                                        [&](const auto& scan) { return scan.id.expression() == expression; });
@@ -157,12 +160,7 @@ std::string write_statistics(const ExperimentFolder& folder, const evaluation::C
     options.seed = file.seed;
     options.resamples = file.resamples;
     options.confidence = file.confidence;
-    const auto measures = [&](const auto& visit) {
-        store.read([&](const evaluation::CaseRow& row) {
-            if (row.estimator != evaluation::run_estimator && !evaluation::is_anchor(row.key.method)) visit(row);
-        });
-    };
-    const auto comparison = evaluation::compare_methods(measures, options);
+    const auto comparison = evaluation::compare_methods([&](const auto& visit) { store.read(visit); }, options);
     base::write_atomically(folder.root() / "statistics" / "methods.csv", report::methods_csv(comparison));
     base::write_atomically(folder.root() / "statistics" / "differences.csv", report::differences_csv(comparison));
     base::write_atomically(folder.root() / "tables" / "intervals.tex", report::intervals_latex(comparison, options));
@@ -193,14 +191,13 @@ int say_result(const Arguments& arguments, const ExperimentFolder& folder) {
     return scores.at("failures").empty() ? exit_done : exit_done_with_failures;
 }
 
-int say_plan(const Arguments& arguments, const evaluation::ExperimentPlan& plan, std::size_t done) {
+int say_plan(const Arguments& arguments, const evaluation::ExperimentPlan& plan) {
     const auto estimate = evaluation::estimate(plan);
     const double seconds = estimate.core_seconds / working_threads();
     if (arguments.common.json)
         std::cout << nlohmann::json{{"schema", 1},
                                     {"dry_run", true},
                                     {"units", plan.units()},
-                                    {"stored_units", done},
                                     {"transfers", estimate.transfers},
                                     {"seconds", seconds}}
                          .dump(1)
@@ -242,12 +239,13 @@ int run(const Arguments& arguments) {
     if (!arguments.dry_run) lock = std::make_unique<base::FolderLock>(folder.root(), base::FolderLock::Use::write);
     if (arguments.anew && !arguments.dry_run) folder.clear();
     std::vector<std::string> unusable;
-    if (file.workspace.empty() && !arguments.dry_run) unusable = preprocess(arguments, file, catalogue, place);
+    if (file.workspace.empty() && !arguments.dry_run && !folder.whole())
+        unusable = preprocess(arguments, file, catalogue, place);
 
     const preprocessing::Workspace workspace(place);
     const evaluation::PerformanceReader reader(workspace);
     const auto experiment = planned(file, reader, catalogue);
-    if (arguments.dry_run) return say_plan(arguments, experiment.plan, 0);
+    if (arguments.dry_run) return say_plan(arguments, experiment.plan);
     folder.claim(experiment.identity);
     if (!folder.whole()) {
         {
@@ -263,8 +261,6 @@ int run(const Arguments& arguments) {
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         base::write_atomically(folder.provenance(), provenance(arguments, file, place, seconds));
         folder.seal();
-        std::error_code none;
-        fs::remove(folder.part(), none);
     } else {
         if (const auto damage = folder.damage(); !damage.empty())
             throw InputError(fmt::format("{}: {}; give --anew to run again, or another folder", folder.root().string(),
@@ -272,6 +268,8 @@ int run(const Arguments& arguments) {
         if (!arguments.common.quiet)
             std::cerr << fmt::format("{}: was run already, nothing is left to do\n", folder.root().string());
     }
+    std::error_code none;
+    fs::remove(folder.part(), none);
     return say_result(arguments, folder);
 }
 

@@ -81,7 +81,10 @@ std::vector<int> units_of(const Arguments& arguments, const facs::FacsCatalogue&
         if (expression.units().size() != 1 || expression.units().front().side != facs::Side::both)
             throw InputError(fmt::format(
                 "--au: '{}' is not one AU on both sides; points are tuned on both at once, such as 12", text));
-        units.push_back(expression.units().front().unit);
+        const int unit = expression.units().front().unit;
+        if (std::find(units.begin(), units.end(), unit) != units.end())
+            throw InputError(fmt::format("--au: AU{} is asked for twice; give it once", unit));
+        units.push_back(unit);
     }
     return units;
 }
@@ -102,9 +105,9 @@ std::string scores_text(const char* whom, const std::vector<OwnScore>& scores) {
     std::string text;
     for (const auto& score : scores)
         text += fmt::format(
-            "{}#   {:<9} {:>5}: {:>3} cases, {:.3f} -> {:.3f} mm (doing nothing {:.3f}), explained {:.3f} "
+            "#   {:<9} {:>5}: {:>3} cases, {:.3f} -> {:.3f} mm (doing nothing {:.3f}), explained {:.3f} "
             "-> {:.3f}\n",
-            "", whom, score.expression.code(), score.cases, score.before_mm, score.after_mm, score.nothing_mm,
+            whom, score.expression.code(), score.cases, score.before_mm, score.after_mm, score.nothing_mm,
             score.explained_before(), score.explained_after());
     return text;
 }
@@ -191,13 +194,19 @@ int run(Arguments& arguments) {
         Progress progress(arguments.common, "tune",
                           units.size() * static_cast<std::size_t>(options.search.most_evaluations));
         for (const int unit : units) {
-            tuned.push_back(evaluation::tune_points(
-                groups.training, groups.unseen, catalogue, unit, thesis, options, failures,
-                [&](int, double share) { progress.advance(fmt::format("AU{} {:.4f}", unit, 1 - share)); }));
+            try {
+                tuned.push_back(evaluation::tune_points(
+                    groups.training, groups.unseen, catalogue, unit, thesis, options, failures,
+                    [&](int, double share) { progress.advance(fmt::format("AU{} {:.4f}", unit, 1 - share)); }));
+            } catch (const InputError& e) {  // what the others took hours for is not lost
+                failures.add(fmt::format("AU{}: {}", unit, e.what()));
+                continue;
+            }
             for (const auto& point : tuned.back().points)
                 if (point.moved_mm > 0) offsets.push_back({unit, point.name, point.lateral, point.up});
         }
     }
+    if (tuned.empty()) throw InputError(fmt::format("no AU was tuned ({})", fmt::join(failures.sorted(), "; ")));
     base::write_atomically(arguments.output,
                            header_of(arguments, groups, tuned, catalogue.name()) + facs::with_offsets(text, offsets));
     if (arguments.common.json) {

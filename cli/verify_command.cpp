@@ -12,6 +12,7 @@
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/folder_lock.h"
 #include "base/random_stream.h"
 #include "base/text.h"
 #include "cli/command.h"
@@ -100,6 +101,7 @@ int run(const Arguments& arguments) {
     if (!folder.whole())
         throw InputError(fmt::format("{}: is no finished experiment (no manifest.json); finish it with 'mimik run'",
                                      folder.root().string()));
+    const base::FolderLock lock(folder.root(), base::FolderLock::Use::read);
     const auto recorded =
         io::parse_json(base::read_text(folder.provenance(), io::most_json_bytes), folder.provenance().string());
     const auto experiment_file =
@@ -112,7 +114,7 @@ int run(const Arguments& arguments) {
     const preprocessing::Workspace workspace(place);
     const evaluation::PerformanceReader reader(workspace);
     const auto experiment = planned(file, reader, catalogue);
-    folder.claim(experiment.identity);
+    folder.require(experiment.identity);
     const auto units = sample(experiment.plan, arguments.units, arguments.seed);
     std::size_t rows = 0;
     {

@@ -14,6 +14,7 @@
 
 #include "base/errors.h"
 #include "base/fields.h"
+#include "evaluation/anchors.h"
 #include "evaluation/score.h"
 #include "statistics/bootstrap.h"
 #include "statistics/effect_size.h"
@@ -172,8 +173,10 @@ constexpr std::size_t fewest_people = 3;  // who are drawn: of two, half of the 
 std::optional<statistics::Interval> interval_of(const Sample& sample, bool pairs, double least,
                                                 const ComparisonOptions& options) {
     using statistics::Clusters;
+    // A source on itself is one person, who is drawn once.
+    const bool itself = sample.source == sample.target;
     const auto clusters =
-        pairs ? Clusters::pairs_of_people(sample.source, sample.target) : Clusters::one_way(sample.target);
+        pairs && !itself ? Clusters::pairs_of_people(sample.source, sample.target) : Clusters::one_way(sample.target);
     if (clusters.draws().front() < fewest_people) return std::nullopt;
     const statistics::WeightedStatistic statistic = [&](std::span<const double> weights) {
         return mean_ratio(sample, weights, least);
@@ -351,7 +354,10 @@ void ComparisonOptions::check() const {
 Comparison compare_methods(const CaseRowReader& read, const ComparisonOptions& options) {
     options.check();
     TableBuilder builder(options);
-    read([&](const CaseRow& row) { builder.take(row); });
+    read([&](const CaseRow& row) {
+        if (row.estimator == run_estimator || is_anchor(row.key.method)) return;
+        builder.take(row);
+    });
     const Table table = builder.finish();
     Comparison result;
     result.unit = table.unit;

@@ -31,7 +31,11 @@ std::optional<double> value_of(statistics::Correlation (*correlation)(std::span<
         return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
     };
     if (pairs.truth.size() < 3 || constant(pairs.truth) || constant(pairs.estimate)) return std::nullopt;
-    return correlation(pairs.estimate, pairs.truth, confidence).value;
+    try {
+        return correlation(pairs.estimate, pairs.truth, confidence).value;
+    } catch (const NumericalError&) {  // equal up to rounding
+        return std::nullopt;
+    }
 }
 
 /// The metric by which an estimator is compared; empty: it is none of the pipeline's.
@@ -63,7 +67,7 @@ public:
     void close() {
         if (truth_ && is_method(key_.method))
             for (const auto& [estimator, value] : estimates_) {
-                auto& pairs = groups_[{estimator, key_.method, key_.expression}];
+                auto& pairs = groups_[{estimator, variant_of(key_), key_.expression}];
                 pairs.estimate.push_back(value);
                 pairs.truth.push_back(*truth_);
             }

@@ -53,7 +53,9 @@ public:
         for (const auto& planned : plan_.expressions) {
             score(planned);
             if (watch_.expression)
-                watch_.expression(planned.expression.code(), scores_of([&](const auto& visit) { store_.read(visit); }));
+                watch_.expression(planned.expression.code(),
+                                  scores_of([&](const auto& visit) { store_.read(visit); },
+                                            plan_.on_itself ? Pairs::source_on_itself : Pairs::of_two));
         }
     }
     [[nodiscard]] std::vector<std::string> failures() const { return failures_.sorted(); }
@@ -161,7 +163,9 @@ private:
                 const auto& target = cast.participants[open[k]];
                 FailureList failures;
                 auto rows = score_target(reader_, plan_, cast, open[k], failures);
-                for (auto& row : anchor_rows(reader_, cast, open[k], failures)) rows.push_back(std::move(row));
+                // Floors are measured as cases are aligned when nothing else is asked for.
+                if (plan_.alignment == Alignment::given)
+                    for (auto& row : anchor_rows(reader_, cast, open[k], failures)) rows.push_back(std::move(row));
                 for (const auto& failure : failures.sorted())
                     rows.push_back(note_row(code, note::failure, failure, target.subject));
                 if (watch_.unit) watch_.unit(target_unit(code, target));
@@ -274,7 +278,7 @@ const char* said_of(Alignment alignment, bool truth) {
     return "ICP on the stable region";
 }
 
-/// Beside the cases, where those are kept. @return all of them
+/// Of what a method explains, the part of what the bound of its kind does.
 void add_shares(std::vector<MethodScores>& rows) {
     for (auto& row : rows)
         for (const auto& other : rows)

@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "facs/toml_depth.h"
+#include "io/mesh_io.h"
 
 namespace mimik::evaluation {
 namespace {
@@ -159,7 +160,12 @@ SubjectChoice read_choice(const Section& section, const std::string& key, bool s
 void read_methods(const Section& section, ExperimentFile& file) {
     section.each("methods", [&](const toml::node& element) {
         const auto name = section.text("methods", element);
-        section.checked(element, [&] { file.methods.push_back(animation::method_by_name(name)); });
+        section.checked(element, [&] {
+            file.methods.push_back(animation::method_by_name(name));
+            for (std::size_t k = 0; k + 1 < file.methods.size(); ++k)
+                if (file.methods[k]->name() == name)
+                    throw InputError(fmt::format("method '{}' is asked for twice; give it once", name));
+        });
     });
 }
 
@@ -223,6 +229,7 @@ void read_document(const Section& document, ExperimentFile& file) {
     if (!database.empty() && !workspace.empty())
         document.refuse("workspace", "stands beside 'database'; an experiment has one of them");
     document.take("unit", file.unit);
+    if (!file.unit.empty()) document.checked(*document.find("unit"), [&] { (void)io::parse_length_unit(file.unit); });
     document.take("emotions", file.emotions);
     std::string catalogue;
     document.take("catalogue", catalogue);

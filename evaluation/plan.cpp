@@ -57,6 +57,8 @@ void ExperimentOptions::check() const {
         if (std::count(magnitudes.begin(), magnitudes.begin() + static_cast<std::ptrdiff_t>(k), magnitudes[k]) > 0)
             throw InputError(fmt::format("magnitudes has {} twice; its cases would count twice", magnitudes[k]));
     }
+    if (on_itself && (!sources.empty() || max_sources > 0))
+        throw InputError("on_itself puts each source on its own face; name targets, and leave the sources out");
     if (on_itself)
         for (const auto& method : methods)
             if (method->needs() != SourceKind::one_source)
@@ -95,18 +97,6 @@ std::vector<double> ExperimentPlan::magnitudes_of(const animation::Method& metho
 
 namespace {
 
-/// @throws InputError for a subject that an experiment cannot show.
-std::set<std::string> known_subjects(const preprocessing::Workspace& workspace, const std::vector<std::string>& shown,
-                                     const std::vector<std::string>& asked, const char* what) {
-    for (const auto& subject : asked) {
-        if (std::find(shown.begin(), shown.end(), subject) != shown.end()) continue;
-        workspace.refuse_hidden(subject);
-        throw InputError(fmt::format("{}: no subject {} in {}; there are {}", what, base::in_quotes(subject),
-                                     workspace.root().string(), fmt::join(shown, ", ")));
-    }
-    return {asked.begin(), asked.end()};
-}
-
 /// @throws InputError where one needs a truth that is not there.
 void add_estimators(ExperimentPlan& plan, const ExperimentOptions& options, bool truth) {
     plan.estimators = options.estimators;
@@ -127,6 +117,17 @@ void add_estimators(ExperimentPlan& plan, const ExperimentOptions& options, bool
 
 }  // namespace
 
+std::set<std::string> known_subjects(const preprocessing::Workspace& workspace, const std::vector<std::string>& asked) {
+    const auto shown = workspace.shown_subjects();
+    for (const auto& subject : asked) {
+        if (std::find(shown.begin(), shown.end(), subject) != shown.end()) continue;
+        workspace.refuse_hidden(subject);
+        throw InputError(fmt::format("no subject {} in {}; there are {}", base::in_quotes(subject),
+                                     workspace.root().string(), fmt::join(shown, ", ")));
+    }
+    return {asked.begin(), asked.end()};
+}
+
 ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const facs::FacsCatalogue& catalogue,
                                const ExperimentOptions& options, bool truth) {
     options.check();
@@ -139,8 +140,8 @@ ExperimentPlan plan_experiment(const preprocessing::Workspace& workspace, const 
         throw InputError(fmt::format("zones from the truth need one, and {} has none; give data or catalogue",
                                      workspace.database_root().string()));
     plan.magnitudes = options.magnitudes;
-    plan.targets = known_subjects(workspace, plan.subjects, options.targets, "targets");
-    plan.sources = known_subjects(workspace, plan.subjects, options.sources, "sources");
+    plan.targets = known_subjects(workspace, options.targets);
+    plan.sources = known_subjects(workspace, options.sources);
     plan.zones = options.zones != ZoneSource::automatic ? options.zones : truth ? ZoneSource::truth : ZoneSource::data;
     add_estimators(plan, options, truth);
     const auto has = [&](const std::string& name) {

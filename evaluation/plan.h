@@ -105,6 +105,10 @@ struct ExperimentPlan {
     [[nodiscard]] std::vector<double> magnitudes_of(const animation::Method& method) const;
 };
 
+/// The subjects that were asked for. @throws InputError for one who may not be shown or is none of the workspace.
+[[nodiscard]] std::set<std::string> known_subjects(const preprocessing::Workspace& workspace,
+                                                   const std::vector<std::string>& asked);
+
 /// An expression that fewer than 3 subjects show (1 where each is its own target) is left out and listed.
 /// @param truth  whether the database has one
 /// @throws InputError for bad options, a mean where each source is its own target, zones or methods that need a truth

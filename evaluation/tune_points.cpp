@@ -85,7 +85,9 @@ public:
                 moved.emplace_back(target_->surface().vertices_mm[vertices[k]] + way_mm[k]);
             for (const auto& hit : expressive_->closest(moved))
                 errors.own_mm += hit.distance_mm / static_cast<double>(vertices.size());
-        } catch (const std::exception&) {
+        } catch (const InputError&) {
+            errors.own_mm = no_answer_share * errors.nothing_mm;
+        } catch (const NumericalError&) {
             errors.own_mm = no_answer_share * errors.nothing_mm;
         }
         return errors;

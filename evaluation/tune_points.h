@@ -68,7 +68,7 @@ struct TunedUnit {
 /// What the thesis did by hand (5.5.1, 5.5.2: place the points, animate the source, compare with its real scan, move
 /// the points, again), done by a search: moves the offsets of one AU's points, left and right alike, to lower the mean
 /// error of the source on itself in the AU's zone, summed over the training subjects. Subjects in `unseen` take no part
-/// in the search.
+/// in the search; the zone is that of all who show the AU in their workspace.
 ///
 /// The points of a midline stay on it; a point stays on its half of the reference face and on that face. Parallel over
 /// subjects; the same answer for any number of threads.

@@ -68,8 +68,12 @@ std::string with_offsets(const std::string& text, std::span<const PointOffset> o
     // From the end, so that what comes before stays where it is.
     std::sort(replacements.begin(), replacements.end(),
               [](const Replacement& a, const Replacement& b) { return a.begin > b.begin; });
+    for (std::size_t k = 1; k < replacements.size(); ++k)
+        if (replacements[k].begin == replacements[k - 1].begin)
+            throw InputError("a point of the catalogue is to be moved twice; move it once");
     std::string edited = text;
     for (const auto& [begin, end, by] : replacements) edited.replace(begin, end - begin, by);
+    (void)parse_catalogue(edited, "the edited catalogue");
     return edited;
 }
 

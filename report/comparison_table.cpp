@@ -75,17 +75,17 @@ std::string methods_table(const Comparison& comparison, const std::string& regio
     return text;
 }
 
-/// What the tables of scores say already: doing nothing is the first row of errors, and nobody chooses a bound.
-bool is_for_files_alone(const MethodDifference& one) {
-    const auto anchor = [](const std::string& variant) {
-        const auto name = variant.substr(0, variant.find('@'));
-        const auto known = animation::known_methods();
-        return name == evaluation::baseline_method || std::any_of(known.begin(), known.end(), [&](const auto& method) {
-                   return method->name() == name && method->needs_truth();
-               });
-    };
-    return anchor(one.first) || anchor(one.second);
+/// Doing nothing and bounds: nobody chooses them.
+bool is_anchor(const std::string& variant) {
+    const auto name = variant.substr(0, variant.find('@'));
+    const auto known = animation::known_methods();
+    return name == evaluation::baseline_method || std::any_of(known.begin(), known.end(), [&](const auto& method) {
+               return method->name() == name && method->needs_truth();
+           });
 }
+
+/// What the tables of scores say already.
+bool is_for_files_alone(const MethodDifference& one) { return is_anchor(one.first) || is_anchor(one.second); }
 
 std::string differences_table(const Comparison& comparison, const std::string& region, bool all) {
     std::string text = fmt::format(
@@ -163,12 +163,12 @@ std::string intervals_latex(const Comparison& comparison, const ComparisonOption
                 text += " & --";
                 continue;
             }
-            const bool best = std::none_of(methods.begin(), methods.end(), [&](const std::string& other) {
-                const auto* theirs = find(comparison, region, expression, other);
-                return theirs && theirs->explained.value_or(0) > *own->explained;
-            });
-            const auto plain = fmt::format("${:.2f}$", *own->explained);
-            const auto value = best ? "\\textbf{" + plain + "}" : plain;
+            const bool best =
+                !is_anchor(method) && std::none_of(methods.begin(), methods.end(), [&](const auto& other) {
+                    const auto* theirs = is_anchor(other) ? nullptr : find(comparison, region, expression, other);
+                    return theirs && theirs->explained && *theirs->explained > *own->explained;
+                });
+            const auto value = fmt::format("${}{:.2f}{}$", best ? "\\mathbf{" : "", *own->explained, best ? "}" : "");
             text += own->explained_interval ? fmt::format(" & {} {{\\scriptsize $[{:.2f}, {:.2f}]$}}", value,
                                                           own->explained_interval->low, own->explained_interval->high)
                                             : " & " + value;

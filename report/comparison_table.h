@@ -7,7 +7,7 @@
 namespace mimik::report {
 
 /// How sure the differences between methods are: per region a table of methods over all expressions with intervals, and
-/// one of their differences, best pair first named. Markdown.
+/// one of their differences, in the order of the methods. Markdown.
 [[nodiscard]] std::string to_markdown(const evaluation::Comparison& comparison,
                                       const evaluation::ComparisonOptions& options);
 
@@ -17,7 +17,7 @@ namespace mimik::report {
 [[nodiscard]] std::string differences_csv(const evaluation::Comparison& comparison);
 
 /// Explained fraction with its interval, methods as rows and expressions as columns, for the package booktabs: the best
-/// of a column is bold. Of the first region.
+/// method of a column is bold, a bound never. Of the first region.
 [[nodiscard]] std::string intervals_latex(const evaluation::Comparison& comparison,
                                           const evaluation::ComparisonOptions& options);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "animation/dense_field.h"
@@ -29,14 +30,17 @@ protected:
         delete registrations_;
         AnalyticSmile::TearDownTestSuite();
     }
-    static DisplacementField field(const std::string& method, const preprocessing::Face& on, std::size_t sources = 1) {
+    static std::unique_ptr<const Transfer> learned(const std::string& method, std::size_t sources = 1) {
         static const auto smile = test::expression("12");
         modeling::Performance performance;
         performance.neutral = source_->neutral;
         performance.expressive = source_->smiling;
         const std::vector performances(sources, performance);
         const LearningTask task{smile, *average_, facs::builtin_catalogue(), *registrations_};
-        return field_on(*learn(*method_by_name(method), task, performances), PreparedTarget(on));
+        return learn(*method_by_name(method), task, performances);
+    }
+    static DisplacementField field(const std::string& method, const preprocessing::Face& on, std::size_t sources = 1) {
+        return field_on(*learned(method, sources), PreparedTarget(on));
     }
     /// The largest gap between one field times a factor and another.
     static double gap_mm(const DisplacementField& one, double times, const DisplacementField& other) {
@@ -70,6 +74,16 @@ TEST_F(TemplateMethods, a_copy_keeps_the_sources_millimetres_where_the_default_g
 }
 
 /// The target is the source, 1.1 times as large; its scan has other noise of the grid, so templates differ a little.
+TEST_F(TemplateMethods, know_on_which_lip_a_vertex_lies_as_the_default_does) {
+    const PreparedTarget target(source_->neutral);
+    const auto by_default = learned("default")->lip_sides(target);
+    EXPECT_THAT(by_default, testing::Contains(preprocessing::LipSide::upper));
+    EXPECT_THAT(by_default, testing::Contains(preprocessing::LipSide::lower));
+    for (const auto* method : {"deformation-transfer", "expression-cloning", "default-80-percent"})
+        EXPECT_EQ(learned(method)->lip_sides(target), by_default) << method;
+    EXPECT_TRUE(learned("sparse")->lip_sides(target).empty());
+}
+
 TEST_F(TemplateMethods, follow_the_size_of_the_face) {
     const auto smile = field("default", target_->neutral);
     for (const auto* name : {"deformation-transfer", "expression-cloning"})

@@ -82,8 +82,7 @@ claim "the experiments that are shipped are read"
 sed 's/next = 1/sex = "x"/' smile.toml >bad.toml
 expect_code 2 "bad.toml:7: 'subjects.sources.sex' is neither f nor m" "$mimik" run bad.toml -o x
 sed 's/sources = .*/targets = ["bs009"]/' smile.toml >bad.toml
-expect_code 2 "bad.toml
-targets: no subject 'bs009'
+expect_code 2 "bad.toml:7: subjects.targets: no subject 'bs009'
 bs000, bs001, bs002" "$mimik" run bad.toml -o x
 sed 's/"12", "4"/"99"/' smile.toml >bad.toml
 expect_code 2 "bad.toml:3: expressions

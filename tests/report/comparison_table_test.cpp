@@ -72,10 +72,18 @@ TEST(ComparisonTable, files_have_every_expression_and_all_as_an_empty_one) {
                 HasSubstr("zone,,mean_2,default,target,4,4,-0.150000,-0.200000,-0.050000,mm,-1.250000,0.125000,1,"));
 }
 
+TEST(ComparisonTable, a_bound_is_never_the_best) {
+    auto comparison = two_methods();
+    comparison.methods.push_back(summary("12", "true-field", 0.7));
+    const auto text = intervals_latex(comparison, {});
+    EXPECT_THAT(text, HasSubstr("\ntrue-field & $0.70$ "));
+    EXPECT_THAT(text, HasSubstr("mean\\_2 & $\\mathbf{0.55}$ "));
+}
+
 TEST(ComparisonTable, latex_has_the_best_in_bold_with_its_interval) {
     const auto text = intervals_latex(two_methods(), {});
     EXPECT_THAT(text, HasSubstr("method & AU12 & AU4 & all \\\\\n\\midrule\n"));
-    EXPECT_THAT(text, HasSubstr("mean\\_2 & \\textbf{$0.55$} {\\scriptsize $[0.45, 0.65]$} & "));
+    EXPECT_THAT(text, HasSubstr("mean\\_2 & $\\mathbf{0.55}$ {\\scriptsize $[0.45, 0.65]$} & "));
     EXPECT_THAT(text, HasSubstr("\ndefault & $0.40$ {\\scriptsize $[0.30, 0.50]$}"));
     EXPECT_THAT(text, Not(HasSubstr("nothing")));
 }
