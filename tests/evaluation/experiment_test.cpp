@@ -351,8 +351,7 @@ TEST_F(Experiment, targets_and_sources_are_those_that_were_asked_for) {
     });
     EXPECT_THAT(pairs, ElementsAre("bs001>bs000", "bs002>bs000", "bs002>bs001"));
     options.targets = {"bs009"};
-    EXPECT_THAT(message_of<InputError>([&] { (void)run(*workspace_, options); }),
-                HasSubstr("no subject 'bs009'"));
+    EXPECT_THAT(message_of<InputError>([&] { (void)run(*workspace_, options); }), HasSubstr("no subject 'bs009'"));
 }
 
 TEST_F(Experiment, a_method_at_two_magnitudes_is_two_rows_and_at_a_half_it_moves_half_as_far) {
