@@ -9,11 +9,11 @@ grep -q ': 0 errors' lint.txt || fail "the catalogue that is shipped has faults"
 "$mimik" catalogue --text >own.toml
 "$mimik" catalogue own.toml --json >own.json
 "$mimik" catalogue --json | diff <(grep -v '"catalogue"' own.json) <(grep -v '"catalogue"') || fail "its text is not what it is"
-"$mimik" catalogue | grep -q "Table 3-2 (pp. 36-37), AU 12, after FACS (1978); course: .* Table 3-1 (pp. 30-32) (AU 12)" || fail "references of the muscles"
+"$mimik" catalogue >table.txt  # grep -q hears no more than it needs, and a closed pipe is a failure
+grep -q "Table 3-2 (pp. 36-37), AU 12, after FACS (1978); course: .* Table 3-1 (pp. 30-32) (AU 12)" table.txt || fail "references of the muscles"
 grep -q '"reference": "Erdogdu 2010, Table 3-2' own.json || fail "reference of a muscle"
 "$mimik" catalogue --thesis --text >thesis.toml
 grep -q '^# Tuned on: ' thesis.toml || fail "where the points of the thesis were tuned"
-"$mimik" catalogue >table.txt
 grep -q '^FEAR  *thesis  *1+2+4+5+20+27' table.txt || fail "the emotions of Table 3-3"
 claim "the catalogue that is shipped has no fault, and its text reads back the same"
 for other in --json --lint; do
