@@ -229,20 +229,9 @@ std::vector<std::string> ExperimentFolder::damage() const {
 PlannedExperiment planned(const ExperimentFile& file, const evaluation::PerformanceReader& reader,
                           const facs::FacsCatalogue& catalogue) {
     const auto& workspace = reader.workspace();
-    evaluation::ExperimentOptions options;
+    auto options = file.options();
     options.expressions = at(file, "expressions",
                              [&] { return expressions_named(workspace, catalogue, "expressions", file.expressions); });
-    options.methods = file.methods;
-    options.magnitudes = file.magnitudes;
-    options.reference = file.reference;
-    options.whole_face = file.whole_face;
-    options.zones = file.zones;
-    options.on_itself = file.on_itself;
-    options.estimators = file.estimators;
-    options.regions = file.regions;
-    options.metrics = file.metrics;
-    options.alignment = file.alignment;
-    options.max_sources = file.sources.next;
     for (const auto& [key, choice, names] : {std::tuple{"subjects.targets", &file.targets, &options.targets},
                                              std::tuple{"subjects.sources", &file.sources, &options.sources}})
         *names = at(file, key, [&] {

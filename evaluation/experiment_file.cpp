@@ -256,6 +256,22 @@ void read_document(const Section& document, ExperimentFile& file) {
 
 }  // namespace
 
+ExperimentOptions ExperimentFile::options() const {
+    ExperimentOptions options;
+    options.methods = methods;
+    options.magnitudes = magnitudes;
+    options.reference = reference;
+    options.whole_face = whole_face;
+    options.zones = zones;
+    options.on_itself = on_itself;
+    options.estimators = estimators;
+    options.regions = regions;
+    options.metrics = metrics;
+    options.alignment = alignment;
+    options.max_sources = sources.next;
+    return options;
+}
+
 std::string ExperimentFile::place(const std::string& key) const {
     const auto found = lines.find(key);
     return found == lines.end() ? name : fmt::format("{}:{}: {}", name, found->second, key);
@@ -275,15 +291,8 @@ ExperimentFile parse_experiment(std::string_view text, const std::string& name) 
     }
     read_document(Section(document, "", file), file);
     // What the options themselves refuse: a method twice, a magnitude of 0.
-    ExperimentOptions options;
-    options.methods = file.methods;
-    options.magnitudes = file.magnitudes;
-    options.on_itself = file.on_itself;
-    options.estimators = file.estimators;
-    options.regions = file.regions;
-    options.metrics = file.metrics;
     try {
-        options.check();
+        file.options().check();
     } catch (const InputError& e) {
         throw InputError(fmt::format("{}: {}", name, e.what()));
     }

@@ -46,6 +46,8 @@ struct ExperimentFile {
     double confidence = 0.95;
     std::map<std::string, unsigned> lines = {};  ///< of each key that was read: "subjects.targets"
 
+    /// What the file itself says of them: all but expressions and subjects, which a workspace has to know.
+    [[nodiscard]] ExperimentOptions options() const;
     /// "thesis.toml:7: subjects.targets": what a fault found later is said of. The file alone where the key is absent.
     [[nodiscard]] std::string place(const std::string& key) const;
 };
