@@ -1,5 +1,6 @@
 #include "report/estimator_table.h"
 
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -34,9 +35,14 @@ std::string estimators_markdown() {
     text += "\n| metric | definition |\n| --- | --- |\n";
     for (const auto& one : evaluation::metric_definitions())
         text += fmt::format("| `{}` | {} |\n", one.name, one.definition);
-    return text + fmt::format("\nRegions: {}.\n\nAlignments, before an estimator's name and a slash: {}.\n",
-                              fmt::join(evaluation::known_regions(), ", "),
-                              fmt::join(evaluation::known_alignments(), ", "));
+    const auto regions = evaluation::known_regions();
+    const auto parts =
+        std::find_if(regions.begin(), regions.end(), [](const auto& name) { return name.find('_') != name.npos; });
+    return text + fmt::format(
+                      "\nRegions: {}.\n\nParts of the face: {}.\n\nAlignments, before an estimator's name and a "
+                      "slash: {}.\n",
+                      fmt::join(regions.begin(), parts, ", "), fmt::join(parts, regions.end(), ", "),
+                      fmt::join(evaluation::known_alignments(), ", "));
 }
 
 std::string estimators_json() {
