@@ -26,7 +26,9 @@ int main(int argc, char** argv) {
     mimik::cli::add_evaluate_command(app, exit_code);
     mimik::cli::add_run_command(app, exit_code);
     mimik::cli::add_verify_command(app, exit_code);
+    mimik::cli::add_compare_command(app, exit_code);
     mimik::cli::add_tune_command(app, exit_code);
+    mimik::cli::add_sensitivity_command(app, exit_code);
     mimik::cli::add_panels_command(app, exit_code);
     mimik::cli::add_figure_command(app, exit_code);
     mimik::cli::add_warp_command(app, exit_code);

@@ -203,6 +203,7 @@ int run(Arguments& arguments) {
                      {"max_edge_mm", "--max-edge-mm"},
                      {"min_part", "--min-part"},
                      {"trim", "--trim"},
+                     {"mean_mm", "--landmark-error"},
                      {"accept", "--accept"}},
                     [&] { arguments.options.check(); });
     preprocessing::check_workspace_place(database, arguments.output);
@@ -287,6 +288,12 @@ void add_preprocess_command(CLI::App& app, int& exit_code) {
         ->add_option("--accept", options.accept,
                      "Take scans that these errors of 'scans --check' refuse: unit, frame, sides, landmarks-off-scan")
         ->delimiter(',');
+    command
+        ->add_option("--landmark-error", options.steps.landmark_error.mean_mm,
+                     "Move every landmark by a drawn error, mm in the mean: how much results depend on marking")
+        ->capture_default_str();
+    command->add_option("--landmark-seed", options.steps.landmark_error.seed, "Of --landmark-error")
+        ->capture_default_str();
     command->add_option("--rows", options.steps.gridding.rows, "Rows of the grid")->capture_default_str();
     command->add_option("--cols", options.steps.gridding.cols, "Columns of the grid")->capture_default_str();
     command->add_option(

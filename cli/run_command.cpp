@@ -27,12 +27,14 @@
 #include "evaluation/comparison.h"
 #include "evaluation/experiment.h"
 #include "evaluation/experiment_file.h"
+#include "evaluation/source_dependence.h"
 #include "io/json_values.h"
 #include "preprocessing/preprocess_run.h"
 #include "report/comparison_table.h"
 #include "report/latex_tables.h"
 #include "report/rows_files.h"
 #include "report/score_table.h"
+#include "report/source_dependence_table.h"
 
 namespace mimik::cli {
 namespace {
@@ -164,7 +166,11 @@ std::string write_statistics(const ExperimentFolder& folder, const evaluation::C
     base::write_atomically(folder.root() / "statistics" / "methods.csv", report::methods_csv(comparison));
     base::write_atomically(folder.root() / "statistics" / "differences.csv", report::differences_csv(comparison));
     base::write_atomically(folder.root() / "tables" / "intervals.tex", report::intervals_latex(comparison, options));
-    return report::to_markdown(comparison, options);
+    const auto dependences = evaluation::source_dependence([&](const auto& visit) { store.read(visit); }, options);
+    base::write_atomically(folder.root() / "statistics" / "source_dependence.csv",
+                           report::source_dependence_csv(dependences));
+    const auto whose = report::to_markdown(dependences);
+    return report::to_markdown(comparison, options) + (whose.empty() ? "" : "\n" + whose);
 }
 
 void write_results(const ExperimentFolder& folder, const evaluation::CaseStore& store,

@@ -15,6 +15,7 @@
 #include "base/errors.h"
 #include "base/fields.h"
 #include "evaluation/anchors.h"
+#include "evaluation/numbered_names.h"
 #include "evaluation/score.h"
 #include "statistics/bootstrap.h"
 #include "statistics/effect_size.h"
@@ -22,29 +23,6 @@
 
 namespace mimik::evaluation {
 namespace {
-
-/// Numbers for names, in the order in which they came.
-class Names {
-public:
-    std::uint32_t number(const std::string& name) {
-        const auto [at, is_new] = numbers_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
-        if (is_new) names_.push_back(name);
-        return at->second;
-    }
-    [[nodiscard]] const std::string& name(std::size_t number) const { return names_[number]; }
-    [[nodiscard]] std::size_t size() const { return names_.size(); }
-    /// Place of each name in the alphabet.
-    [[nodiscard]] std::vector<std::uint32_t> places() const {
-        std::vector<std::uint32_t> places;
-        for (const auto& name : names_)
-            places.push_back(static_cast<std::uint32_t>(std::distance(numbers_.begin(), numbers_.find(name))));
-        return places;
-    }
-
-private:
-    std::map<std::string, std::uint32_t> numbers_;
-    std::vector<std::string> names_;
-};
 
 struct Case {
     std::uint32_t target = 0, source = 0;
@@ -56,7 +34,7 @@ using Cases = std::vector<Case>;
 /// All rows that fit, as numbers.
 struct Table {
     std::string unit;
-    Names subjects, expressions, methods;
+    NumberedNames subjects, expressions, methods;
     std::vector<char> one_source;                                                  // per method: it learns from one
     std::map<std::tuple<std::size_t, std::uint32_t, std::uint32_t>, Cases> cases;  // region, expression, method
 

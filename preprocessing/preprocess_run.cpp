@@ -67,6 +67,7 @@ std::string describe(const PreprocessOptions& options) {
                             steps.cleaning_method == CleaningMethod::pcl ? " pcl" + field_values(steps.pcl_cleaning)
                                                                          : field_values(steps.cleaning),
                             field_values(steps.gridding), field_values(options.alignment));
+    if (steps.landmark_error.mean_mm > 0) text += " landmark error" + field_values(steps.landmark_error);
     for (const auto& kind : std::set<std::string>(options.accept.begin(), options.accept.end()))
         text += " accept " + kind;
     return text;

@@ -110,6 +110,7 @@ void remark_on_losses(const ScanStepsReport& done, CleaningMethod method, std::v
 }  // namespace
 
 void ScanSteps::check() const {
+    landmark_error.check();
     crop.check();
     cleaning.check();
     pcl_cleaning.check();
@@ -123,13 +124,18 @@ Face preprocess_scan(const database::LoadedScan& loaded, const ScanSteps& steps,
     face.sex = loaded.entry.sex;
     face.landmarks = loaded.landmarks;
     face.remarks = loaded.remarks;
+    if (steps.landmark_error.mean_mm > 0) {
+        face.landmarks = with_landmark_error(loaded.landmarks, loaded.entry.id.name(), steps.landmark_error);
+        face.remarks.push_back(fmt::format("its landmarks were moved by drawn errors of {:g} mm in the mean (seed {})",
+                                           steps.landmark_error.mean_mm, steps.landmark_error.seed));
+    }
     // A manifest may list meshes that know of no image, and any image of the same name lies beside them.
     if (!loaded.scan.texture_coordinates.empty())
         face.texture_file = loaded.entry.texture_file;
     else if (!loaded.entry.texture_file.empty())
         face.remarks.emplace_back("the image beside it is not used: the scan has no texture coordinates");
     ScanStepsReport done;
-    const auto box = box_of(loaded.landmarks, steps.crop, face.remarks);
+    const auto box = box_of(face.landmarks, steps.crop, face.remarks);
     // Before cleaning: shoulders may be the largest part of a scan, and the face a stray one.
     const auto cropped = box ? crop_to_face(loaded.scan, *box, &done.crop) : loaded.scan;
     face.grid = grid_scan(cleaned_scan(cropped, steps, done.cleaning), steps.gridding, &done.gridding);

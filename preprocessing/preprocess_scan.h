@@ -6,12 +6,14 @@
 #include "preprocessing/face.h"
 #include "preprocessing/face_crop.h"
 #include "preprocessing/gridding.h"
+#include "preprocessing/landmark_error.h"
 #include "preprocessing/pcl_cleaning.h"
 
 namespace mimik::preprocessing {
 
 /// How one scan becomes a face.
 struct ScanSteps {
+    LandmarkErrorOptions landmark_error;  ///< before all else
     FaceCropOptions crop;
     CleaningMethod cleaning_method = CleaningMethod::own;
     CleaningOptions cleaning;         ///< of the own cleaning
@@ -19,6 +21,7 @@ struct ScanSteps {
     GriddingOptions gridding;
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
+        visit("landmark_error", self.landmark_error);
         visit("crop", self.crop);
         visit("cleaning_method", self.cleaning_method);
         visit("cleaning", self.cleaning);

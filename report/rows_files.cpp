@@ -1,5 +1,6 @@
 #include "report/rows_files.h"
 
+#include <fstream>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -97,6 +98,31 @@ std::size_t write_rows_csv(const std::filesystem::path& file, const ReadRows& re
         });
     });
     return count;
+}
+
+void read_rows_csv(const std::filesystem::path& file, const std::function<void(const evaluation::CaseRow&)>& visit) {
+    constexpr std::size_t longest = std::size_t{1} << 16;
+    std::ifstream in(file, std::ios::binary);
+    if (!in)
+        throw InputError(fmt::format("{}: cannot be read; give the folder of a finished 'mimik run'", file.string()));
+    std::string line(longest, '\0');
+    std::size_t number = 0;
+    const auto fail = [&](const char* what) {
+        throw InputError(fmt::format("{}:{}: {}; run the experiment again", file.string(), number, what));
+    };
+    while (in.getline(line.data(), static_cast<std::streamsize>(line.size()))) {
+        ++number;
+        const std::string text = line.c_str();
+        if (number == 1) {
+            if (text != evaluation::case_row_header()) fail("is not the header of a table of rows");
+            continue;
+        }
+        const auto row = evaluation::decode_case_row(text);
+        if (!row) fail("is no row");
+        visit(*row);
+    }
+    if (!in.eof()) fail("is longer than 64 kB");
+    if (number == 0) fail("is empty");
 }
 
 std::size_t write_rows_sqlite(const std::filesystem::path& file, const ReadRows& read) {

@@ -6,6 +6,7 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "tests/database/temporary_folder.h"
+#include "tests/evaluation/smile_with_point.h"
 #include "tests/support/analytic_truth.h"
 #include "tests/support/analytic_workspace_files.h"
 
@@ -27,24 +28,6 @@ protected:
         delete folder_;
     }
 
-    /// One AU whose outer points hold still where the smile does not reach, and one point on each side that is `off_mm`
-    /// above the corner, the peak of the motion.
-    static facs::FacsCatalogue smile_with_point(double off_mm) {
-        const auto& built_in = *facs::builtin_catalogue().find(12);
-        facs::ActionUnit unit = built_in;
-        unit.points.clear();
-        const auto add = [&](const std::string& name, const std::string& mark, double lateral, double up) {
-            unit.points.push_back({name, facs::ControlKind::carried, {{{mark, 1.0}}, lateral, up}});
-        };
-        add("wing", "nose_wing", 0, 0);
-        add("cheek", "mouth_corner", 0.33, 0.05);
-        add("jaw", "mouth_corner", 0.20, -0.33);
-        add("chin", "chin", 0, 0);
-        add("lip", "upper_lip_outer", 0, 0);
-        unit.points.push_back(
-            {"corner", facs::ControlKind::muscle, {{{"mouth_corner", 1.0}}, 0.0, off_mm / outer_eyes_mm}});
-        return {facs::builtin_catalogue().sampling(), {unit}, {}, "smile"};
-    }
     static TunedUnit tuned(const facs::FacsCatalogue& catalogue, TuneOptions options) {
         options.carried = false;
         options.most_vertices = 300;
@@ -55,7 +38,6 @@ protected:
                            options, failures);
     }
 
-    static constexpr double outer_eyes_mm = 89.0;  // of the reference face
     static database::TemporaryFolder* folder_;
     static preprocessing::Workspace* workspace_;
     static PerformanceReader* reader_;
@@ -67,16 +49,16 @@ PerformanceReader* TunePoints::reader_ = nullptr;
 
 TEST_F(TunePoints, brings_a_point_that_was_put_off_back_to_where_it_does_best) {
     TuneOptions options;
-    const auto good = tuned(smile_with_point(0), options);
+    const auto good = tuned(test::smile_with_point(0), options);
     for (const double off_mm : {-4.0, 4.0}) {
-        const auto bad = tuned(smile_with_point(off_mm), options);
+        const auto bad = tuned(test::smile_with_point(off_mm), options);
         ASSERT_EQ(bad.points.size(), 1U);  // what is carried stays
         EXPECT_EQ(bad.points.front().name, "corner");
         ASSERT_EQ(bad.training.size(), 1U);
         EXPECT_GT(bad.training.front().before_mm, good.training.front().before_mm);
         EXPECT_LT(bad.training.front().after_mm, bad.training.front().before_mm);
         // From every start the search ends at the same place, within its last step.
-        EXPECT_NEAR(bad.points.front().up * outer_eyes_mm, good.points.front().up * outer_eyes_mm,
+        EXPECT_NEAR(bad.points.front().up * test::outer_eyes_mm, good.points.front().up * test::outer_eyes_mm,
                     options.search.last_step);
         EXPECT_NEAR(bad.training.front().after_mm, good.training.front().after_mm,
                     0.01 * good.training.front().nothing_mm);
@@ -89,7 +71,7 @@ TEST_F(TunePoints, brings_a_point_that_was_put_off_back_to_where_it_does_best) {
 TEST_F(TunePoints, moves_no_point_farther_than_it_may_and_writes_what_it_scored) {
     TuneOptions options;
     options.most_mm = 2;
-    const auto catalogue = smile_with_point(7);
+    const auto catalogue = test::smile_with_point(7);
     const auto found = tuned(catalogue, options);
     EXPECT_LE(found.points.front().moved_mm, 2 + 1e-9);
     EXPECT_GT(found.points.front().moved_mm, 1);
@@ -102,7 +84,7 @@ TEST_F(TunePoints, gives_the_same_points_for_any_number_of_threads) {
     std::vector<TunedUnit> found;
     for (const int threads : {1, 2}) {
         base::set_thread_count(threads);
-        found.push_back(tuned(smile_with_point(4), {}));
+        found.push_back(tuned(test::smile_with_point(4), {}));
     }
     base::set_thread_count(0);
     EXPECT_EQ(found[0].points.front().up, found[1].points.front().up);
@@ -112,7 +94,7 @@ TEST_F(TunePoints, gives_the_same_points_for_any_number_of_threads) {
 }
 
 TEST_F(TunePoints, refuses_what_cannot_be_tuned) {
-    const auto catalogue = smile_with_point(0);
+    const auto catalogue = test::smile_with_point(0);
     const std::vector<TuneGroup> training = {{reader_, {"bs000"}}};
     FailureList failures;
     const auto method = animation::method_by_name("thesis"), dense = animation::method_by_name("default");

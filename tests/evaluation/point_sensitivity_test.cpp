@@ -1,0 +1,102 @@
+#include "evaluation/point_sensitivity.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "base/errors.h"
+#include "base/parallel.h"
+#include "tests/database/temporary_folder.h"
+#include "tests/evaluation/smile_with_point.h"
+#include "tests/support/analytic_truth.h"
+#include "tests/support/analytic_workspace_files.h"
+
+namespace mimik::evaluation {
+namespace {
+
+/// Three people whose smile is a bump of motion about the mouth corners, the mouth corner its peak.
+class PointSensitivities : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = new database::TemporaryFolder;
+        test::write_analytic_truth(folder_->path() / "db");
+        workspace_ = new preprocessing::Workspace(test::analytic_workspace(folder_->path()));
+        reader_ = new PerformanceReader(*workspace_);
+    }
+    static void TearDownTestSuite() {
+        delete reader_;
+        delete workspace_;
+        delete folder_;
+    }
+    static UnitSensitivity of(const facs::FacsCatalogue& catalogue, const PointSensitivityOptions& options = {},
+                              const char* method = "thesis", int unit = 12) {
+        FailureList failures;
+        const auto by = animation::method_by_name(method);
+        return point_sensitivity({reader_, workspace_->shown_subjects()}, catalogue, unit,
+                                 dynamic_cast<const animation::ModelMethod&>(*by), options, failures);
+    }
+    static const PointSensitivity& point(const UnitSensitivity& unit, const std::string& name) {
+        return *std::find_if(unit.points.begin(), unit.points.end(), [&](const auto& one) { return one.name == name; });
+    }
+
+    static database::TemporaryFolder* folder_;
+    static preprocessing::Workspace* workspace_;
+    static PerformanceReader* reader_;
+};
+database::TemporaryFolder* PointSensitivities::folder_ = nullptr;
+preprocessing::Workspace* PointSensitivities::workspace_ = nullptr;
+PerformanceReader* PointSensitivities::reader_ = nullptr;
+
+TEST_F(PointSensitivities, show_that_a_point_off_the_peak_does_better_when_it_is_moved_there) {
+    // A point lies at a vertex of these coarse faces: 4 mm is a step that leads to another one.
+    for (const double off_mm : {-4.0, 4.0}) {
+        const auto unit = of(test::smile_with_point(off_mm), {.step_mm = 4});
+        EXPECT_EQ(unit.cases, 3U);
+        ASSERT_EQ(unit.points.size(), 6U);
+        const auto& corner = point(unit, "corner");
+        const double towards = off_mm > 0 ? corner.down_mm : corner.up_mm;
+        const double away = off_mm > 0 ? corner.up_mm : corner.down_mm;
+        EXPECT_LT(towards, 0);
+        EXPECT_LT(towards, away);
+        EXPECT_DOUBLE_EQ(corner.largest_mm(), std::max({std::abs(corner.up_mm), std::abs(corner.down_mm),
+                                                        std::abs(corner.outward_mm), std::abs(corner.inward_mm)}));
+    }
+}
+
+TEST_F(PointSensitivities, are_the_error_of_the_moved_catalogue_less_that_of_the_catalogue) {
+    const auto here = of(test::smile_with_point(1), {.step_mm = 4});
+    const auto there = of(test::smile_with_point(5), {.step_mm = 4});
+    ASSERT_NE(here.error_mm, there.error_mm);
+    // The same place, written as an offset of 1 + 4 and of 5: they differ by rounding alone.
+    EXPECT_NEAR(here.error_mm + point(here, "corner").up_mm, there.error_mm, 1e-9);
+    EXPECT_NEAR(there.error_mm + point(there, "corner").down_mm, here.error_mm, 1e-9);
+}
+
+TEST_F(PointSensitivities, of_a_point_on_the_midline_have_no_sideways_moves) {
+    const auto unit = of(test::smile_with_point(0));
+    EXPECT_TRUE(point(unit, "chin").midline);
+    EXPECT_EQ(point(unit, "chin").outward_mm, 0);
+    EXPECT_FALSE(point(unit, "corner").midline);
+    EXPECT_NE(point(unit, "corner").outward_mm, 0);
+}
+
+TEST_F(PointSensitivities, are_the_same_for_any_number_of_threads) {
+    std::vector<UnitSensitivity> found;
+    for (const int threads : {1, 2}) {
+        base::set_thread_count(threads);
+        found.push_back(of(test::smile_with_point(3)));
+    }
+    base::set_thread_count(0);
+    EXPECT_EQ(found[0].error_mm, found[1].error_mm);
+    EXPECT_EQ(point(found[0], "corner").up_mm, point(found[1], "corner").up_mm);
+}
+
+TEST_F(PointSensitivities, refuse_a_method_without_points_on_the_source_and_bad_steps) {
+    const auto catalogue = test::smile_with_point(0);
+    EXPECT_THROW((void)of(catalogue, {}, "default"), InputError);
+    EXPECT_THROW((void)of(catalogue, {}, "thesis", 4), InputError);
+    EXPECT_THROW((void)of(catalogue, {.step_mm = 0}), InputError);
+}
+
+}  // namespace
+}  // namespace mimik::evaluation
