@@ -36,16 +36,10 @@ target_link_libraries(mimik_caller INTERFACE mimik_warnings)
 if(MIMIK_SANITIZE)
   target_compile_options(mimik_caller INTERFACE -O0)
 endif()
-# For tests: -O1 compiles them in two thirds of the time of -O3, and what they wait for is the code under test.
-add_library(mimik_test INTERFACE)
-target_link_libraries(mimik_test INTERFACE mimik_caller)
-if(NOT MIMIK_SANITIZE)
-  target_compile_options(mimik_test INTERFACE $<$<CONFIG:Release>:-O1>)
-endif()
 # mimik_take_optimised(test_modeling geometry modeling): of a template that both a caller and these layers
 # instantiate, the linker takes the first that it meets; let that be the optimised one.
 function(mimik_take_optimised target)
-  if(MIMIK_SANITIZE OR target MATCHES "^test_")
+  if(MIMIK_SANITIZE)
     list(REMOVE_DUPLICATES ARGN)
     list(REMOVE_ITEM ARGN adapters)  # headers alone
     list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_FILE:mimik_\\1>" OUTPUT_VARIABLE archives)
