@@ -68,10 +68,10 @@ ControlSurface control_surface(const MarkerSet& set, std::span<const std::string
     }
     surface.left_out.assign(left_out.begin(), left_out.end());
     if (surface.triangles.empty())
-        throw InputError(fmt::format(
-            "no triangle of {} has all its corners among the markers; name the markers as the set does "
-            "('mimik mocap markers'), or give a set with triangles between yours",
-            set.name.empty() ? "the marker set" : set.name));
+        throw InputError(
+            fmt::format("no triangle of {} has all its corners among the markers; name the markers as the set does "
+                        "('mimik mocap markers'), or give a set with triangles between yours",
+                        set.name.empty() ? "the marker set" : set.name));
     return surface;
 }
 
@@ -91,8 +91,7 @@ std::vector<std::string> surface_faults(const MarkerSet& set, const geometry::La
         for (std::size_t c = 0; c < 3; ++c) {
             const auto edge = std::minmax(names[c], names[(c + 1) % 3]);
             if (++edges[{edge.first, edge.second}] == 3)
-                faults.push_back(
-                    fmt::format("more than two triangles have the edge {}, {}", edge.first, edge.second));
+                faults.push_back(fmt::format("more than two triangles have the edge {}, {}", edge.first, edge.second));
         }
         std::array<geometry::Point, 3> at;
         bool there = true;

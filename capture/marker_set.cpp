@@ -26,8 +26,8 @@ constexpr std::string_view embedded_set =
     ;
 
 constexpr std::size_t most_findings = 1000, most_entries = 10'000, deepest = 32;
-constexpr std::size_t least_group = 3;  // fewer say no rotation
-constexpr double closest_mm = 3;        // two markers are wider
+constexpr std::size_t least_group = 3;    // fewer say no rotation
+constexpr double closest_mm = 3;          // two markers are wider
 constexpr std::size_t most_openings = 8;  // two bits each, and room to spare
 
 struct TooManyFindings {};
@@ -256,6 +256,10 @@ void Reader::check(const Entry& entry) {
                           base::counted(group.size(), "marker"), least_group));
     if (!framed) return;
     const auto along = resolved(entry, entry.along, side);
+    for (const auto& name : {entry.sibling, entry.towards})
+        if (resolved(entry, name, side, false).size() > 1)
+            error(*entry.table,
+                  fmt::format("{} stands on both sides; say which, such as {}_left", base::in_quotes(name), name));
     if (entry.sibling.empty() || entry.towards.empty() || along.size() != 2)
         error(*entry.table, "a sibling needs along = [A, B] and towards = C: the markers that span its frame");
     else if (along[0] == along[1] ||
@@ -381,8 +385,8 @@ void Reader::read_openings(const toml::table& document, MarkerSet& set) {
             put("lower", opening.lower);
             for (const auto& marker : opening.upper)
                 if (std::find(opening.lower.begin(), opening.lower.end(), marker) != opening.lower.end())
-                    error(*table, fmt::format("{} lies above and below {}", base::in_quotes(marker),
-                                              base::in_quotes(name)));
+                    error(*table,
+                          fmt::format("{} lies above and below {}", base::in_quotes(marker), base::in_quotes(name)));
             set.openings.push_back(std::move(opening));
         }
     }

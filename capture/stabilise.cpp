@@ -106,6 +106,11 @@ public:
         }
         if (sequence.frames() == 0) throw InputError("the recording has no frame; there is nothing to stabilise");
         rest_frame_ = find_rest();
+        for (const auto marker : used_)
+            reference_.push_back(sequence.valid(rest_frame_, marker)
+                                     ? std::optional(sequence.at_mm(rest_frame_, marker))
+                                     : std::nullopt);
+        if (!options.jig.empty()) average_reference();
     }
 
     [[nodiscard]] std::size_t rest_frame() const { return rest_frame_; }
@@ -134,18 +139,45 @@ private:
     }
     [[nodiscard]] Pairs pairs(std::size_t frame) const {
         Pairs both;
-        for (const auto marker : used_) {
-            if (!sequence_.valid(frame, marker) || !sequence_.valid(rest_frame_, marker)) continue;
-            both.frame_mm.push_back(sequence_.at_mm(frame, marker));
-            both.rest_mm.push_back(sequence_.at_mm(rest_frame_, marker));
+        for (std::size_t k = 0; k < used_.size(); ++k) {
+            if (!sequence_.valid(frame, used_[k]) || !reference_[k]) continue;
+            both.frame_mm.push_back(sequence_.at_mm(frame, used_[k]));
+            both.rest_mm.push_back(*reference_[k]);
         }
         return both;
+    }
+    /// A jig is one rigid body, so the mean of its places over all frames is nearer to its shape than those of one
+    /// frame, whose noise every pose would bear. The mean stands where the jig is at rest.
+    void average_reference() {
+        std::vector<Point> sum(used_.size(), Point::Zero());
+        std::vector<std::size_t> count(used_.size(), 0);
+        for (std::size_t frame = 0; frame < sequence_.frames(); ++frame) {
+            const auto fit = plain_pose(pairs(frame));
+            if (!fit) continue;
+            for (std::size_t k = 0; k < used_.size(); ++k)
+                if (sequence_.valid(frame, used_[k])) {
+                    sum[k] += fit->rest_from_frame * sequence_.at_mm(frame, used_[k]);
+                    ++count[k];
+                }
+        }
+        Pairs at_rest;
+        for (std::size_t k = 0; k < used_.size(); ++k)
+            if (count[k] > 0 && reference_[k]) {
+                at_rest.frame_mm.emplace_back(sum[k] / static_cast<double>(count[k]));
+                at_rest.rest_mm.push_back(*reference_[k]);
+            }
+        const auto rest_from_mean = plain_pose(at_rest);
+        if (!rest_from_mean) return;
+        for (std::size_t k = 0; k < used_.size(); ++k)
+            if (count[k] > 0)
+                reference_[k] = rest_from_mean->rest_from_frame * (sum[k] / static_cast<double>(count[k]));
     }
 
     const MarkerSequence& sequence_;
     const StabiliseOptions& options_;
     std::vector<std::size_t> used_;
     std::size_t rest_frame_ = 0;
+    std::vector<std::optional<Point>> reference_;  ///< of every marker used; none: it is never seen with the others
 };
 
 }  // namespace
