@@ -1,6 +1,7 @@
 #include "capture/stabilise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -146,31 +147,36 @@ private:
         }
         return both;
     }
-    /// A jig is one rigid body, so the mean of its places over all frames is nearer to its shape than those of one
-    /// frame, whose noise every pose would bear. The mean stands where the jig is at rest.
+    /// A jig is one rigid body, so the median of a marker's places over all frames is nearer to its shape than its
+    /// place in one frame, whose noise every pose would bear; and one bent frame does not move it. It stands where the
+    /// jig is at rest.
     void average_reference() {
-        std::vector<Point> sum(used_.size(), Point::Zero());
-        std::vector<std::size_t> count(used_.size(), 0);
+        std::vector<std::array<std::vector<double>, 3>> seen_at(used_.size());
         for (std::size_t frame = 0; frame < sequence_.frames(); ++frame) {
             const auto fit = plain_pose(pairs(frame));
             if (!fit) continue;
-            for (std::size_t k = 0; k < used_.size(); ++k)
-                if (sequence_.valid(frame, used_[k])) {
-                    sum[k] += fit->rest_from_frame * sequence_.at_mm(frame, used_[k]);
-                    ++count[k];
-                }
-        }
-        Pairs at_rest;
-        for (std::size_t k = 0; k < used_.size(); ++k)
-            if (count[k] > 0 && reference_[k]) {
-                at_rest.frame_mm.emplace_back(sum[k] / static_cast<double>(count[k]));
-                at_rest.rest_mm.push_back(*reference_[k]);
+            for (std::size_t k = 0; k < used_.size(); ++k) {
+                if (!sequence_.valid(frame, used_[k])) continue;
+                const Point at = fit->rest_from_frame * sequence_.at_mm(frame, used_[k]);
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    seen_at[k][axis].push_back(at[static_cast<Eigen::Index>(axis)]);
             }
-        const auto rest_from_mean = plain_pose(at_rest);
-        if (!rest_from_mean) return;
+        }
+        std::vector<std::optional<Point>> shape(used_.size());
+        Pairs at_rest;
+        for (std::size_t k = 0; k < used_.size(); ++k) {
+            auto& [x, y, z] = seen_at[k];
+            if (x.empty()) continue;
+            shape[k] =
+                Point(geometry::median(std::move(x)), geometry::median(std::move(y)), geometry::median(std::move(z)));
+            if (!reference_[k]) continue;
+            at_rest.frame_mm.push_back(*shape[k]);
+            at_rest.rest_mm.push_back(*reference_[k]);
+        }
+        const auto rest_from_shape = plain_pose(at_rest);
+        if (!rest_from_shape) return;
         for (std::size_t k = 0; k < used_.size(); ++k)
-            if (count[k] > 0)
-                reference_[k] = rest_from_mean->rest_from_frame * (sum[k] / static_cast<double>(count[k]));
+            if (shape[k]) reference_[k] = rest_from_shape->rest_from_frame * *shape[k];
     }
 
     const MarkerSequence& sequence_;
