@@ -145,7 +145,7 @@ MocapWritten write_mocap_video(const std::filesystem::path& file, const MocapMot
         figure.page.height_mm = 1.7 * (high - low).y();
         report::PanelDescription panel;
         panel.mesh = mesh;
-        panel.centre_mm = 0.5 * (low + high);
+        panel.centre_mm = Point(0.5 * (low + high));
         figure.panels = {panel};
         report::write_figure_description(description, figure);
         if (const auto fault = draw_figure(description, pictures / fmt::format("{:06}.png", count++)); !fault.empty())

@@ -98,13 +98,11 @@ MocapTarget read_mocap_target(const MocapTargetArguments& arguments, const captu
         labels.assign(read.all().begin(), read.all().end());
     }
     const geometry::Landmarks given(labels);
-    std::size_t placed = 0;
     const auto places = naming(target.name, [&] { return capture::place_markers(set, target.landmarks); });
     for (const auto& mark : places.all()) {
         if (given.find(mark.name)) continue;
         if (!arguments.markers.empty() && set.find(mark.name)) continue;  // a marker that its user left out
         labels.push_back({mark.name, skin.closest(mark.position_mm).position_mm, ""});
-        ++placed;
     }
     target.labels = geometry::Landmarks(std::move(labels));
     for (const auto& fault : capture::surface_faults(set, target.labels)) target.remarks.push_back(fault);

@@ -41,7 +41,7 @@ TEST(UnitWeights, no_weight_is_negative_or_beyond_the_most) {
     const auto motions = random_motions(2, 20);
     const auto found = UnitWeights(motions, {0.0, 1.5}).of(sum({motions[0]}, {-1}));
     EXPECT_EQ(found[0], 0);
-    EXPECT_EQ(UnitWeights(std::vector{motions[0]}, {0.0, 1.5}).of(sum({motions[0]}, {4}))[0], 1.5);
+    EXPECT_EQ(UnitWeights(std::vector<std::vector<Vector>>{motions[0]}, {0.0, 1.5}).of(sum({motions[0]}, {4}))[0], 1.5);
 }
 
 TEST(UnitWeights, units_that_move_alike_share_a_motion_evenly) {
