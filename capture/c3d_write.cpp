@@ -143,6 +143,11 @@ void check_names(const MarkerSequence& markers, const std::string& name) {
         throw InputError(fmt::format("{}: there is no {} to write", name, markers.markers() == 0 ? "marker" : "frame"));
     if (markers.markers() > 65535)
         throw InputError(fmt::format("{}: {} markers, and a C3D holds 65535; write .trc", name, markers.markers()));
+    // Two words of 16 bits each hold the first and the last.
+    constexpr std::int64_t last_number = 0xFFFFFFFF;
+    if (const auto last = markers.first_frame() + static_cast<std::int64_t>(markers.frames()) - 1; last > last_number)
+        throw InputError(fmt::format("{}: frames are numbered up to {}, and a C3D holds up to {}; write .trc or .csv",
+                                     name, last, last_number));
     for (const auto& one : markers.names())
         if (one.size() > longest_name)
             throw InputError(fmt::format("{}: the name {} is longer than {} bytes; shorten it", name,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -68,6 +69,12 @@ private:
     std::optional<std::size_t> frame_column_, time_column_;
     std::vector<std::string> remarks_;
 };
+
+/// A few samples must not stand for a sea of missing ones.
+bool too_sparse(std::uint64_t samples, std::uint64_t stated) {
+    constexpr std::uint64_t always = 1'000'000, samples_a_stated_one = 32;
+    return samples > std::max(always, samples_a_stated_one * stated);
+}
 
 /// The axis of a column NAME_x; none where it is none.
 std::optional<std::size_t> axis_of(std::string_view column) {
@@ -183,29 +190,43 @@ double Reader::rate_hz(const std::map<std::int64_t, double>& times_s) {
 MarkerSequence Reader::read_wide() {
     const auto columns = marker_columns();
     std::vector<std::optional<Point>> samples;
-    std::map<std::int64_t, double> times_s;
-    std::int64_t first_frame = 1, last = 0, frames = 0;
+    std::vector<std::int64_t> numbers;
+    std::map<std::int64_t, double> by_row_s, by_number_s;
+    std::int64_t frames = 0;
     std::size_t jumps = 0;
     while (rows_.next()) {
         check_size(columns.size(), static_cast<std::uint64_t>(frames) + 1);
         const auto number = frame_number(frames + 1);
-        if (frames == 0) first_frame = number;
-        jumps += frames > 0 && number != last + 1 ? 1 : 0;
-        last = number;
-        if (const auto time = time_s()) times_s.emplace(frames, *time);
+        jumps += frames > 0 && number != numbers.back() + 1 ? 1 : 0;
+        numbers.push_back(number);
+        if (const auto time = time_s()) {
+            by_row_s.emplace(frames, *time);
+            by_number_s.emplace(number, *time);
+        }
         for (const auto& marker : columns) samples.push_back(position(marker.x, marker.name));
         ++frames;
     }
     if (frames == 0) throw InputError(fmt::format("{}: there is no row; the table holds no motion", name_));
-    if (jumps > 0)
+    // Numbers that grow say when each row was; frames between them are absent, not shorter.
+    const bool grow = std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) == numbers.end();
+    const auto span = static_cast<std::uint64_t>(numbers.back() - numbers.front()) + 1;
+    const bool placed = grow && span <= most_samples && !too_sparse(span * columns.size(), samples.size());
+    if (jumps > 0 && placed)
+        remarks_.push_back(fmt::format("{} absent; the markers are missing there",
+                                       base::counted(span - numbers.size(), "frame is", "frames are")));
+    else if (jumps > 0)
         remarks_.push_back(fmt::format("{} not one more than the frame before; taken in the order of the rows",
                                        base::counted(jumps, "frame is", "frames are")));
+    if (placed) check_size(columns.size(), span);
     std::vector<std::string> names;
     for (const auto& marker : columns) names.push_back(marker.name);
-    MarkerSequence sequence(usable_names(std::move(names), remarks_), rate_hz(times_s),
-                            static_cast<std::size_t>(frames), first_frame);
-    for (std::size_t k = 0; k < samples.size(); ++k)
-        if (samples[k]) sequence.set(k / columns.size(), k % columns.size(), *samples[k]);
+    MarkerSequence sequence(usable_names(std::move(names), remarks_), rate_hz(placed ? by_number_s : by_row_s),
+                            placed ? static_cast<std::size_t>(span) : numbers.size(), numbers.front());
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        const auto row = k / columns.size();
+        const auto frame = placed ? static_cast<std::size_t>(numbers[row] - numbers.front()) : row;
+        if (samples[k]) sequence.set(frame, k % columns.size(), *samples[k]);
+    }
     return sequence;
 }
 
@@ -232,9 +253,7 @@ MarkerSequence Reader::read_long(std::size_t marker_column) {
     if (frames.empty()) throw InputError(fmt::format("{}: there is no row; the table holds no motion", name_));
     const auto first = frames.begin()->first;
     const auto span = static_cast<std::uint64_t>(frames.rbegin()->first - first) + 1;
-    // A few rows must not stand for a sea of missing samples.
-    constexpr std::uint64_t always = 1'000'000, samples_a_row = 32;
-    if (span > most_samples || span * names.size() > std::max(always, samples_a_row * rows))
+    if (span > most_samples || too_sparse(span * names.size(), rows))
         throw InputError(
             fmt::format("{}: {} and {} frames from {} on, but only {}; number the frames one after another", name_,
                         base::counted(names.size(), "marker"), span, first, base::counted(rows, "row")));

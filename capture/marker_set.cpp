@@ -14,6 +14,7 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "capture/control_surface.h"
 #include "facs/reference_face.h"
 #include "facs/toml_depth.h"
 
@@ -25,8 +26,9 @@ constexpr std::string_view embedded_set =
     ;
 
 constexpr std::size_t most_findings = 1000, most_entries = 10'000, deepest = 32;
-constexpr std::size_t least_group = 3;  // fewer say no rotation
-constexpr double closest_mm = 3;        // two markers are wider
+constexpr std::size_t least_group = 3;    // fewer say no rotation
+constexpr double closest_mm = 3;          // two markers are wider
+constexpr std::size_t most_openings = 8;  // two bits each, and room to spare
 
 struct TooManyFindings {};
 
@@ -45,7 +47,7 @@ public:
     explicit Reader(std::vector<facs::LintFinding>& findings) : findings_(findings) {}
 
     MarkerSet read(const toml::table& document) {
-        only_keys(document, {"schema", "marker", "derived"});
+        only_keys(document, {"schema", "marker", "derived", "surface", "opening"});
         if (document["schema"].value_or(0) != 1) error(document, "schema is not 1");
         for (const char* key : {"marker", "derived"}) read_tables(document, key);
         if (std::none_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return !entry.derived; }))
@@ -55,7 +57,10 @@ public:
         for (const auto& entry : entries_) check(entry);
         for (const auto& entry : entries_)
             for (const auto side : sides(entry)) add(entry, side, set);
+        read_surface(document, set);
+        read_openings(document, set);
         check_places();
+        check_surface(document, set);
         return set;
     }
 
@@ -92,6 +97,10 @@ private:
     void check(const Entry& entry);
     void add(const Entry& entry, facs::Side side, MarkerSet& set);
     void check_places();
+    std::vector<std::string> anywhere(const toml::node& node, const std::string& name, bool paired, facs::Side side);
+    void read_surface(const toml::table& document, MarkerSet& set);
+    void read_openings(const toml::table& document, MarkerSet& set);
+    void check_surface(const toml::table& document, const MarkerSet& set);
 
     std::vector<facs::LintFinding>& findings_;
     std::vector<Entry> entries_;
@@ -247,6 +256,10 @@ void Reader::check(const Entry& entry) {
                           base::counted(group.size(), "marker"), least_group));
     if (!framed) return;
     const auto along = resolved(entry, entry.along, side);
+    for (const auto& name : {entry.sibling, entry.towards})
+        if (resolved(entry, name, side, false).size() > 1)
+            error(*entry.table,
+                  fmt::format("{} stands on both sides; say which, such as {}_left", base::in_quotes(name), name));
     if (entry.sibling.empty() || entry.towards.empty() || along.size() != 2)
         error(*entry.table, "a sibling needs along = [A, B] and towards = C: the markers that span its frame");
     else if (along[0] == along[1] ||
@@ -295,6 +308,108 @@ void Reader::check_places() {
                                         base::in_quotes(entry.name), base::in_quotes(name), (p - other).norm()));
         placed.emplace_back(entry.name, p);
     }
+}
+
+/// The full names that a name of the surface or of an opening stands for; derived ones count.
+std::vector<std::string> Reader::anywhere(const toml::node& node, const std::string& name, bool paired,
+                                          facs::Side side) {
+    if (paired && names_.count(full(name, side)) > 0) return {full(name, side)};
+    if (names_.count(name) > 0) return {name};
+    if (!paired && names_.count(name + "_left") > 0) return {name + "_right", name + "_left"};
+    error(node, fmt::format("there is no marker {}", base::in_quotes(name)));
+    return {};
+}
+
+void Reader::read_surface(const toml::table& document, MarkerSet& set) {
+    const auto* node = document.get("surface");
+    if (!node) return;
+    const auto* table = node->as_table();
+    if (!table) return error(*node, "write [surface] and under it triangles = [ ... ]");
+    only_keys(*table, {"triangles"});
+    const auto* list = (*table)["triangles"].as_array();
+    if (!list || list->size() > most_entries) return error(*table, "'triangles' is not a list of triangles");
+    for (const auto& item : *list) {
+        const auto* corners = item.as_array();
+        std::array<std::string, 3> left, right;
+        bool good = corners && corners->size() == 3;
+        for (std::size_t c = 0; good && c < 3; ++c) {
+            const auto name = corners->get(c)->value<std::string>();
+            good = name.has_value();
+            if (!good) break;
+            const auto there = anywhere(item, *name, true, facs::Side::left);
+            if (there.empty()) break;
+            left[c] = there.front();
+            // The mirror image is run through the other way.
+            right[2 - c] = anywhere(item, *name, true, facs::Side::right).front();
+        }
+        if (!good) {
+            error(item, "a triangle is not three names of markers");
+            continue;
+        }
+        if (left[0].empty() || left[1].empty() || left[2].empty()) continue;
+        set.triangles.push_back(left);
+        auto sorted = left, mirrored = right;
+        std::sort(sorted.begin(), sorted.end());
+        std::sort(mirrored.begin(), mirrored.end());
+        if (sorted != mirrored) set.triangles.push_back(right);
+    }
+}
+
+void Reader::read_openings(const toml::table& document, MarkerSet& set) {
+    const auto* node = document.get("opening");
+    if (!node) return;
+    const auto* list = node->as_array();
+    if (!list || list->size() > most_openings)
+        return error(*node, fmt::format("write [[opening]] above each of them, at most {}", most_openings));
+    for (const auto& item : *list) {
+        const auto* table = item.as_table();
+        if (!table) {
+            error(item, "write [[opening]] above each of them");
+            continue;
+        }
+        only_keys(*table, {"name", "sides", "upper", "lower"});
+        const auto name = text(*table, "name", true), side = text(*table, "sides", true);
+        if (!side.empty() && side != "paired" && side != "middle")
+            error(*table, fmt::format("sides {} is neither paired nor middle", base::in_quotes(side)));
+        const bool paired = side == "paired";
+        for (const auto one : paired ? std::vector<facs::Side>{facs::Side::left, facs::Side::right}
+                                     : std::vector<facs::Side>{facs::Side::both}) {
+            MarkerOpening opening{full(name, one), {}, {}, one};
+            const auto put = [&](const char* key, std::vector<std::string>& names_of_part) {
+                for (const auto& marker : names(*table, key))
+                    for (auto& there : anywhere(*table, marker, paired, one)) names_of_part.push_back(std::move(there));
+                if (names_of_part.empty())
+                    error(*table, fmt::format("'{}' of {} names no marker", key, base::in_quotes(name)));
+            };
+            put("upper", opening.upper);
+            put("lower", opening.lower);
+            for (const auto& marker : opening.upper)
+                if (std::find(opening.lower.begin(), opening.lower.end(), marker) != opening.lower.end())
+                    error(*table,
+                          fmt::format("{} lies above and below {}", base::in_quotes(marker), base::in_quotes(name)));
+            set.openings.push_back(std::move(opening));
+        }
+    }
+}
+
+/// The triangles on the reference face, all of one orientation, no edge with three of them, none across an opening.
+void Reader::check_surface(const toml::table& document, const MarkerSet& set) {
+    if (set.triangles.empty()) return;
+    if (std::any_of(findings_.begin(), findings_.end(), [](const auto& one) { return one.error; })) return;
+    const auto& node = *document.get("surface");
+    const auto places = place_markers(set, facs::reference_landmarks());
+    for (const auto& fault : surface_faults(set, places)) error(node, fault);
+    for (const auto& opening : set.openings)
+        for (const auto& triangle : set.triangles) {
+            const auto touches = [&](const std::vector<std::string>& part) {
+                return std::any_of(triangle.begin(), triangle.end(), [&](const std::string& corner) {
+                    return std::find(part.begin(), part.end(), corner) != part.end();
+                });
+            };
+            if (touches(opening.upper) && touches(opening.lower))
+                error(node, fmt::format("the triangle {} bridges {}", fmt::join(triangle, ", "),
+                                        base::in_quotes(opening.name)));
+        }
 }
 
 MarkerSet read(std::string_view text, std::vector<facs::LintFinding>& findings) {

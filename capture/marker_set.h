@@ -39,17 +39,29 @@ struct DerivedMarker {
     facs::Side side = facs::Side::both;
 };
 
-/// Which markers there are, and which hangs on which.
+/// Where the face opens: a mouth, an eye. What moves one side does not move the other.
+struct MarkerOpening {
+    std::string name;                       ///< "mouth", "eye_left"
+    std::vector<std::string> upper, lower;  ///< markers of what lies above and below it; its corners are in neither
+    facs::Side side = facs::Side::both;
+};
+
+/// Which markers there are, which hangs on which, and which triangles span the face between them.
 struct MarkerSet {
     std::string name;  ///< its file, or "built-in marker set"
     std::vector<SetMarker> markers;
     std::vector<DerivedMarker> derived;
+    /// The control surface, counter-clockwise seen from outside; corners are markers or derived. Empty: the set has
+    /// none.
+    std::vector<std::array<std::string, 3>> triangles;
+    std::vector<MarkerOpening> openings;
 
     [[nodiscard]] const SetMarker* find(const std::string& marker) const;
 };
 
 /// Every fault of a set, in the order of its lines: unknown keys, names and landmarks, groups of fewer than three,
-/// what hangs on itself, markers that fall together or off the reference face.
+/// what hangs on itself, markers that fall together or off the reference face; triangles that are flipped or flat on
+/// the reference face, that are there twice, that three share an edge of, or that bridge an opening.
 [[nodiscard]] std::vector<facs::LintFinding> lint_marker_set(std::string_view toml);
 /// @throws InputError naming file, line and the first error of the linter.
 [[nodiscard]] MarkerSet decode_marker_set(std::string_view toml, const std::string& name);

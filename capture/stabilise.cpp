@@ -1,6 +1,7 @@
 #include "capture/stabilise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -106,6 +107,11 @@ public:
         }
         if (sequence.frames() == 0) throw InputError("the recording has no frame; there is nothing to stabilise");
         rest_frame_ = find_rest();
+        for (const auto marker : used_)
+            reference_.push_back(sequence.valid(rest_frame_, marker)
+                                     ? std::optional(sequence.at_mm(rest_frame_, marker))
+                                     : std::nullopt);
+        if (!options.jig.empty()) average_reference();
     }
 
     [[nodiscard]] std::size_t rest_frame() const { return rest_frame_; }
@@ -134,18 +140,50 @@ private:
     }
     [[nodiscard]] Pairs pairs(std::size_t frame) const {
         Pairs both;
-        for (const auto marker : used_) {
-            if (!sequence_.valid(frame, marker) || !sequence_.valid(rest_frame_, marker)) continue;
-            both.frame_mm.push_back(sequence_.at_mm(frame, marker));
-            both.rest_mm.push_back(sequence_.at_mm(rest_frame_, marker));
+        for (std::size_t k = 0; k < used_.size(); ++k) {
+            if (!sequence_.valid(frame, used_[k]) || !reference_[k]) continue;
+            both.frame_mm.push_back(sequence_.at_mm(frame, used_[k]));
+            both.rest_mm.push_back(*reference_[k]);
         }
         return both;
+    }
+    /// A jig is one rigid body, so the median of a marker's places over all frames is nearer to its shape than its
+    /// place in one frame, whose noise every pose would bear; and one bent frame does not move it. It stands where the
+    /// jig is at rest.
+    void average_reference() {
+        std::vector<std::array<std::vector<double>, 3>> seen_at(used_.size());
+        for (std::size_t frame = 0; frame < sequence_.frames(); ++frame) {
+            const auto fit = plain_pose(pairs(frame));
+            if (!fit) continue;
+            for (std::size_t k = 0; k < used_.size(); ++k) {
+                if (!sequence_.valid(frame, used_[k])) continue;
+                const Point at = fit->rest_from_frame * sequence_.at_mm(frame, used_[k]);
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    seen_at[k][axis].push_back(at[static_cast<Eigen::Index>(axis)]);
+            }
+        }
+        std::vector<std::optional<Point>> shape(used_.size());
+        Pairs at_rest;
+        for (std::size_t k = 0; k < used_.size(); ++k) {
+            auto& [x, y, z] = seen_at[k];
+            if (x.empty()) continue;
+            shape[k] =
+                Point(geometry::median(std::move(x)), geometry::median(std::move(y)), geometry::median(std::move(z)));
+            if (!reference_[k]) continue;
+            at_rest.frame_mm.push_back(*shape[k]);
+            at_rest.rest_mm.push_back(*reference_[k]);
+        }
+        const auto rest_from_shape = plain_pose(at_rest);
+        if (!rest_from_shape) return;
+        for (std::size_t k = 0; k < used_.size(); ++k)
+            if (shape[k]) reference_[k] = rest_from_shape->rest_from_frame * *shape[k];
     }
 
     const MarkerSequence& sequence_;
     const StabiliseOptions& options_;
     std::vector<std::size_t> used_;
     std::size_t rest_frame_ = 0;
+    std::vector<std::optional<Point>> reference_;  ///< of every marker used; none: it is never seen with the others
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace mimik::cli {
 namespace {
 
 constexpr const char* program_name = "mimik-figure";
+constexpr const char* video_program_name = "mimik-video";
 
 /// argv of a program; points into `words`.
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
@@ -35,6 +36,7 @@ bool runs(const std::filesystem::path& file) {
 
 /// What went wrong; empty: nothing.
 std::string run_and_wait(const std::filesystem::path& program, std::vector<std::string> words) {
+    const auto name = words.front();
     auto arguments = pointers_to(words);
     pid_t child = 0;
     const int error = posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ);
@@ -44,16 +46,19 @@ std::string run_and_wait(const std::filesystem::path& program, std::vector<std::
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR)
             return fmt::format("{} was lost: {}", program.string(), std::system_category().message(errno));
-    if (WIFSIGNALED(status)) return fmt::format("{} was ended by signal {}", program_name, WTERMSIG(status));
-    if (WEXITSTATUS(status) != 0) return fmt::format("{} ended with {}", program_name, WEXITSTATUS(status));
+    if (WIFSIGNALED(status)) return fmt::format("{} was ended by signal {}", name, WTERMSIG(status));
+    if (WEXITSTATUS(status) != 0) return fmt::format("{} ended with {}", name, WEXITSTATUS(status));
     return {};
 }
 
 }  // namespace
 
-std::filesystem::path find_figure_program() {
+namespace {
+
+/// Beside this program, or on the PATH. @param missing  what the error ends with
+std::filesystem::path find_program(const char* name, const char* missing) {
     std::error_code ignored;
-    auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / program_name;
+    auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name;
     if (runs(beside)) return beside;
     const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
     std::string_view folders = path ? path : "";
@@ -61,11 +66,24 @@ std::filesystem::path find_figure_program() {
         const auto end = folders.find(':');
         const auto folder = folders.substr(0, end);
         folders = end == std::string_view::npos ? std::string_view() : folders.substr(end + 1);
-        if (auto file = std::filesystem::path(folder) / program_name; !folder.empty() && runs(file)) return file;
+        if (auto file = std::filesystem::path(folder) / name; !folder.empty() && runs(file)) return file;
     }
-    throw InputError(
-        fmt::format("{} is neither {} nor on the PATH; install it (it is built unless MIMIK_FIGURES is OFF)",
-                    program_name, beside.string()));
+    throw InputError(fmt::format("{} is neither {} nor on the PATH; {}", name, beside.string(), missing));
+}
+
+}  // namespace
+
+std::filesystem::path find_figure_program() {
+    return find_program(program_name, "install it (it is built unless MIMIK_FIGURES is OFF)");
+}
+
+std::filesystem::path find_video_program() {
+    return find_program(video_program_name, "install it, or write a folder of meshes or a .glb instead");
+}
+
+std::string write_video(const std::filesystem::path& frames, const std::filesystem::path& video, double rate_hz) {
+    return run_and_wait(find_video_program(), {video_program_name, "write", frames.string(), video.string(), "--fps",
+                                               fmt::format("{:g}", rate_hz)});
 }
 
 void become_figure_program(const std::vector<std::string>& arguments) {

@@ -16,4 +16,10 @@ namespace mimik::cli {
 /// Draws a figure description to a PNG. Empty: done; else what went wrong and how to draw it again. From any thread.
 [[nodiscard]] std::string draw_figure(const std::filesystem::path& description, const std::filesystem::path& picture);
 
+/// `mimik-video`, likewise. @throws InputError saying where it was looked for.
+[[nodiscard]] std::filesystem::path find_video_program();
+/// Makes a video of the pictures in a folder. Empty: done; else what went wrong. @throws as find_video_program.
+[[nodiscard]] std::string write_video(const std::filesystem::path& frames, const std::filesystem::path& video,
+                                      double rate_hz);
+
 }  // namespace mimik::cli

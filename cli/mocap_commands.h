@@ -24,6 +24,8 @@ struct Recording {
 /// Commands of `mimik mocap` that live in files of their own.
 void add_mocap_clean(CLI::App& group, int& exit_code);
 void add_mocap_retarget(CLI::App& group, int& exit_code);
+void add_mocap_animate(CLI::App& group, int& exit_code);
+void add_mocap_synthesize(CLI::App& group, int& exit_code);
 void add_mocap_markers(CLI::App& group, int& exit_code);
 
 }  // namespace mimik::cli

@@ -289,6 +289,8 @@ TEST(C3d, what_the_format_cannot_hold_is_not_written) {
     EXPECT_THAT(message_of([] { (void)encode_c3d(MarkerSequence({std::string(128, 'a')}, 1, 1), "o"); }),
                 HasSubstr("longer than 127 bytes"));
     EXPECT_THAT(message_of([] { (void)encode_c3d(MarkerSequence({"a"}, 1, 0), "o"); }), HasSubstr("no frame"));
+    EXPECT_THAT(message_of([] { (void)encode_c3d(MarkerSequence({"a"}, 1, 2, 0xFFFFFFFF), "o"); }),
+                HasSubstr("frames are numbered up to 4294967296, and a C3D holds up to 4294967295"));
     MarkerSequence far({"a"}, 1, 1);
     far.set(0, 0, Point(0, 5000, 0));
     C3dWriteOptions options;

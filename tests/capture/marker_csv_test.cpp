@@ -50,6 +50,18 @@ TEST(MarkerCsv, a_long_table_may_leave_rows_out_and_have_any_order) {
     EXPECT_FALSE(file.markers.valid(1, 1));
 }
 
+TEST(MarkerCsv, frames_that_a_wide_table_leaves_out_are_missing_and_the_rate_holds) {
+    // 100 Hz, of which the frames 3 and 4 are absent: by the rows alone it would be 60 Hz.
+    const auto file = decode("frame,time,a_x,a_y,a_z\n1,0,1,0,0\n2,0.01,2,0,0\n5,0.04,5,0,0\n6,0.05,6,0,0\n");
+    EXPECT_EQ(file.markers.rate_hz(), 100);
+    ASSERT_EQ(file.markers.frames(), 6U);
+    EXPECT_FALSE(file.markers.valid(2, 0));
+    EXPECT_FALSE(file.markers.valid(3, 0));
+    EXPECT_EQ(file.markers.at_mm(4, 0).x(), 5);
+    ASSERT_EQ(file.remarks.size(), 1U);
+    EXPECT_THAT(file.remarks.front(), HasSubstr("2 frames are absent"));
+}
+
 TEST(MarkerCsv, every_double_reads_back) {
     auto take = circling_markers(20, 50, 7);
     take.set(2, 5, Point(1.0 / 3, -1e-17, 12345.678901234567));

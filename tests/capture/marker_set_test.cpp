@@ -95,7 +95,23 @@ TEST(MarkerSet, the_linter_names_every_kind_of_fault) {
                 HasSubstr("not three different ones"));
     EXPECT_THAT(findings_of(derived + "sibling = \"d\"\nalong = [\"a\"]\ntowards = \"c\"\ngroup = [\"a\"]\n"),
                 HasSubstr("a group and a sibling"));
+    EXPECT_THAT(findings_of(derived + "sibling = \"a\"\nalong = [\"b\", \"c\"]\ntowards = \"d\"\n"),
+                HasSubstr("'a' stands on both sides"));
     EXPECT_THAT(message_of([] { (void)decode_marker_set("schema = 3\n", "own.toml"); }), HasSubstr("own.toml: line "));
+}
+
+TEST(MarkerSet, the_linter_checks_the_surface_and_the_openings) {
+    const auto surface = [](const std::string& triangle) {
+        return findings_of(three + "[surface]\ntriangles = [[\"b\", \"a\", \"d\"], " + triangle +
+                           "]\n[[opening]]\nname = \"mouth\"\nsides = \"middle\"\nupper = [\"c\"]\nlower = "
+                           "[\"b\"]\n");
+    };
+    EXPECT_EQ(surface(R"(["d", "a", "c"])"), "none");
+    EXPECT_THAT(surface(R"(["d", "a", "e"])"), HasSubstr("there is no marker 'e'"));
+    EXPECT_THAT(surface(R"(["d", "a"])"), HasSubstr("not three names"));
+    EXPECT_THAT(surface(R"(["c", "a", "d"])"), HasSubstr("is flipped"));
+    EXPECT_THAT(surface(R"(["b", "a", "d"])"), HasSubstr("is there twice"));
+    EXPECT_THAT(surface(R"(["b", "a", "c"])"), HasSubstr("bridges 'mouth'"));
 }
 
 }  // namespace

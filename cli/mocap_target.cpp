@@ -1,0 +1,185 @@
+#include "cli/mocap_target.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "animation/part_masks.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "builtin/unit_fields.h"
+#include "capture/control_surface.h"
+#include "cli/command.h"
+#include "cli/error_report.h"
+#include "cli/subject_names.h"
+#include "database/file_origin.h"
+#include "database/hidden_subjects.h"
+#include "database/known_databases.h"
+#include "facs/facs_catalogue.h"
+#include "geometry/face_surface.h"
+#include "io/landmark_io.h"
+#include "preprocessing/kept_registrations.h"
+#include "preprocessing/workspace.h"
+
+namespace mimik::cli {
+
+using animation::MarkerMethod;
+using geometry::Point;
+using geometry::Vector;
+
+namespace {
+
+/// WORK:subject, where WORK is a folder.
+std::optional<std::pair<std::string, std::string>> in_workspace(const std::string& target) {
+    const auto colon = target.rfind(':');
+    std::error_code ignored;
+    if (colon == std::string::npos || !std::filesystem::is_directory(target.substr(0, colon), ignored))
+        return std::nullopt;
+    return std::pair(target.substr(0, colon), target.substr(colon + 1));
+}
+
+MocapTarget of_workspace(const std::string& folder, const std::string& typed) {
+    const preprocessing::Workspace workspace(folder);
+    const auto subject = subject_named(workspace, typed);
+    workspace.refuse_hidden(subject);
+    const auto face = workspace.face(workspace.neutral(subject));
+    auto surface = geometry::face_surface(face.grid, face.landmarks);
+    MocapTarget target;
+    target.name = face.id.name();
+    target.is_scan = true;
+    target.landmarks = face.landmarks;
+    std::vector<std::uint32_t> place(surface.size(), 0);
+    for (std::size_t v = 0; v < surface.size(); ++v) {
+        if (!surface.present[v]) continue;
+        place[v] = static_cast<std::uint32_t>(target.mesh.vertices_mm.size());
+        target.mesh.vertices_mm.push_back(surface.vertices_mm[v]);
+    }
+    for (const auto& t : surface.triangles) {
+        target.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+        target.mesh.faces.add(target.triangles.back());
+    }
+    target.made_by = {{"subjects", subject}, {"database", database::remember_database(workspace.database_root())}};
+    return target;
+}
+
+MocapTarget of_mesh(const MocapTargetArguments& arguments) {
+    if (arguments.landmarks.empty())
+        throw InputError(
+            "--landmarks: is missing; a mesh needs its landmarks (docs/landmarks.md), which say where its parts are");
+    const std::filesystem::path file = arguments.target;
+    for (const auto& one : {file, arguments.landmarks}) database::refuse_hidden_file(one);
+    refuse_range_scan(file);
+    const auto unit = io::parse_length_unit(arguments.unit);
+    auto read = io::read_mesh_file(file, unit, io::MeshParts::without_attributes, io::BadTexture::report);
+    MocapTarget target;
+    target.name = file.filename().string();
+    target.landmarks = io::read_landmarks(arguments.landmarks, read.mesh.vertices_mm, unit);
+    target.mesh = std::move(read.mesh);
+    target.triangles = geometry::triangulate(target.mesh.faces);
+    target.remarks = read.remarks;
+    if (target.triangles.empty()) throw InputError(fmt::format("{}: has no face to be moved", file.string()));
+    target.made_by =
+        database::said_in_files(database::united(database::origin_of(file), database::origin_of(arguments.landmarks)));
+    return target;
+}
+
+}  // namespace
+
+MocapTarget read_mocap_target(const MocapTargetArguments& arguments, const capture::MarkerSet& set) {
+    const auto work = in_workspace(arguments.target);
+    auto target = work ? of_workspace(work->first, work->second) : of_mesh(arguments);
+    // Labels of the file go before; what it does not have is placed by the landmarks, on the surface.
+    const geometry::SurfaceIndex skin(target.mesh.vertices_mm, target.triangles);
+    std::vector<geometry::Landmark> labels;
+    if (!arguments.markers.empty()) {
+        database::refuse_hidden_file(arguments.markers);
+        const auto read =
+            io::read_landmarks(arguments.markers, target.mesh.vertices_mm, io::parse_length_unit(arguments.unit));
+        labels.assign(read.all().begin(), read.all().end());
+    }
+    const geometry::Landmarks given(labels);
+    const auto places = naming(target.name, [&] { return capture::place_markers(set, target.landmarks); });
+    for (const auto& mark : places.all()) {
+        if (given.find(mark.name)) continue;
+        if (!arguments.markers.empty() && set.find(mark.name)) continue;  // a marker that its user left out
+        labels.push_back({mark.name, skin.closest(mark.position_mm).position_mm, ""});
+    }
+    target.labels = geometry::Landmarks(std::move(labels));
+    for (const auto& fault : capture::surface_faults(set, target.labels)) target.remarks.push_back(fault);
+    return target;
+}
+
+MocapRig::MocapRig(MocapTarget target, MarkerMethod method, const capture::MarkerSet& set,
+                   std::vector<std::string> tracked, const animation::MarkerAnimatorOptions& options)
+    : target_(std::move(target)), tracked_(std::move(tracked)) {
+    make_ready(method, set);
+    const animation::MarkerAnimator::Mesh mesh{target_.mesh.vertices_mm, target_.triangles, parts_, &units_};
+    animator_ = std::make_unique<const animation::MarkerAnimator>(method, mesh, set, target_.labels, tracked_, options);
+    places_ = geometry::SurfaceIndex(target_.mesh.vertices_mm, target_.triangles).closest(animator_->rest_mm());
+    if (const auto& missing = animator_->surface().left_out; !missing.empty())
+        remarks_.push_back(fmt::format("{} of the control surface not there, such as '{}'; its triangles are left out",
+                                       base::counted(missing.size(), "corner is", "corners are"), missing.front()));
+}
+
+void MocapRig::make_ready(MarkerMethod method, const capture::MarkerSet& set) {
+    const bool masks = method == MarkerMethod::bones || method == MarkerMethod::units_bones;
+    const bool units = method == MarkerMethod::units || method == MarkerMethod::units_bones;
+    if (!masks && !units && !target_.is_scan) return;
+    expressions_ = std::make_unique<const builtin::BuiltinExpressions>();
+    geometry::Mesh skin;
+    skin.vertices_mm = target_.mesh.vertices_mm;
+    skin.faces = target_.mesh.faces;
+    prepared_ = std::make_unique<const animation::PreparedTarget>(geometry::face_surface(skin, target_.landmarks),
+                                                                  expressions_->average(), target_.name);
+    // Any dense model knows the template of these expressions, which is then bent on to the target once.
+    const auto& catalogue = facs::builtin_catalogue();
+    const auto registrations = expressions_->model(catalogue, *catalogue.find_expression("12")).dense->registrations;
+    parts_ = animation::vertex_parts(*prepared_, registrations, set);
+    if (units) units_ = builtin::unit_fields(*expressions_, catalogue, *prepared_);
+    if (target_.is_scan && !set.openings.empty()) cut_lips();
+}
+
+/// A scan is one surface from lip to lip; what bridges them would be drawn out like a curtain.
+void MocapRig::cut_lips() {
+    constexpr std::uint32_t upper = capture::part_bit(0, true), lower = capture::part_bit(0, false);
+    const auto bridges = [&](const geometry::Triangle& t) {
+        bool above = false, below = false;
+        for (const auto v : t) {
+            above = above || parts_[v] == upper;
+            below = below || parts_[v] == lower;
+        }
+        return above && below;
+    };
+    std::vector<geometry::Triangle> kept;
+    for (const auto& t : target_.triangles)
+        if (!bridges(t)) kept.push_back(t);
+    const auto cut = target_.triangles.size() - kept.size();
+    if (cut == 0) return;
+    remarks_.push_back(fmt::format("{} between the lips left out, so that they can part",
+                                   base::counted(cut, "triangle", "triangles")));
+    target_.triangles = std::move(kept);
+    target_.mesh.faces = {};
+    for (const auto& t : target_.triangles) target_.mesh.faces.add(t);
+}
+
+geometry::Mesh MocapRig::moved(std::span<const Vector> displacement_mm) const {
+    auto mesh = target_.mesh;
+    for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) mesh.vertices_mm[v] += displacement_mm[v];
+    return mesh;
+}
+
+std::vector<double> MocapRig::marker_errors_mm(std::span<const Point> markers_mm,
+                                               std::span<const Vector> displacement_mm) const {
+    std::vector<double> errors;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+        // The label may stand a little off the skin; that is no error of the motion.
+        Vector motion = Vector::Zero();
+        const auto& corners = target_.triangles[places_[k].triangle];
+        for (std::size_t c = 0; c < 3; ++c)
+            motion += places_[k].barycentric[static_cast<Eigen::Index>(c)] * displacement_mm[corners[c]];
+        errors.push_back((animator_->rest_mm()[k] + motion - markers_mm[k]).norm());
+    }
+    return errors;
+}
+
+}  // namespace mimik::cli
