@@ -33,9 +33,16 @@ bool runs(const std::filesystem::path& file) {
     return std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
 }
 
-/// What went wrong; empty: nothing.
-std::string run_and_wait(const std::filesystem::path& program, std::vector<std::string> words) {
+std::filesystem::path beside_this(const std::string& name) {
+    std::error_code ignored;
+    return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name;
+}
+
+}  // namespace
+
+std::string run_program(const std::filesystem::path& program, std::vector<std::string> words) {
     auto arguments = pointers_to(words);
+    const auto name = program.filename().string();
     pid_t child = 0;
     const int error = posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ);
     if (error != 0)
@@ -44,28 +51,29 @@ std::string run_and_wait(const std::filesystem::path& program, std::vector<std::
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR)
             return fmt::format("{} was lost: {}", program.string(), std::system_category().message(errno));
-    if (WIFSIGNALED(status)) return fmt::format("{} was ended by signal {}", program_name, WTERMSIG(status));
-    if (WEXITSTATUS(status) != 0) return fmt::format("{} ended with {}", program_name, WEXITSTATUS(status));
+    if (WIFSIGNALED(status)) return fmt::format("{} was ended by signal {}", name, WTERMSIG(status));
+    if (WEXITSTATUS(status) != 0) return fmt::format("{} ended with {}", name, WEXITSTATUS(status));
     return {};
 }
 
-}  // namespace
-
-std::filesystem::path find_figure_program() {
-    std::error_code ignored;
-    auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / program_name;
-    if (runs(beside)) return beside;
+std::filesystem::path find_own_program(const std::string& name) {
+    if (auto file = beside_this(name); runs(file)) return file;
     const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
     std::string_view folders = path ? path : "";
     while (!folders.empty()) {
         const auto end = folders.find(':');
         const auto folder = folders.substr(0, end);
         folders = end == std::string_view::npos ? std::string_view() : folders.substr(end + 1);
-        if (auto file = std::filesystem::path(folder) / program_name; !folder.empty() && runs(file)) return file;
+        if (auto file = std::filesystem::path(folder) / name; !folder.empty() && runs(file)) return file;
     }
+    return {};
+}
+
+std::filesystem::path find_figure_program() {
+    if (auto file = find_own_program(program_name); !file.empty()) return file;
     throw InputError(
         fmt::format("{} is neither {} nor on the PATH; install it (it is built unless MIMIK_FIGURES is OFF)",
-                    program_name, beside.string()));
+                    program_name, beside_this(program_name).string()));
 }
 
 void become_figure_program(const std::vector<std::string>& arguments) {
@@ -80,8 +88,8 @@ std::string draw_figure(const std::filesystem::path& description, const std::fil
     std::string fault;
     try {
         // Its errors go to our standard error; there is nothing else that it says when quiet.
-        fault = run_and_wait(find_figure_program(),
-                             {program_name, "--description", description.string(), "-o", picture.string(), "--quiet"});
+        fault = run_program(find_figure_program(),
+                            {program_name, "--description", description.string(), "-o", picture.string(), "--quiet"});
     } catch (const InputError& e) {
         fault = e.what();
     }
