@@ -186,6 +186,11 @@ Mesh to_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral, c
     return mesh_of(animated, neutral, options, Positions::animated, kept_vertices);
 }
 
+Mesh resting_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral, const ExportOptions& options,
+                  std::vector<std::uint32_t>* kept_vertices) {
+    return mesh_of(animated, neutral, options, Positions::neutral, kept_vertices);
+}
+
 std::vector<std::string> write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated,
                                              const preprocessing::Face& neutral, std::span<const NamedMagnitude> names,
                                              const std::filesystem::path& texture_file, const ExportOptions& options) {

@@ -35,6 +35,11 @@ struct ExportOptions {
                                      const ExportOptions& options = {},
                                      std::vector<std::uint32_t>* kept_vertices = nullptr);
 
+/// The same at rest, without the faces that any of the `shapes` tears: what morph targets can be put on.
+[[nodiscard]] geometry::Mesh resting_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral,
+                                          const ExportOptions& options = {},
+                                          std::vector<std::uint32_t>* kept_vertices = nullptr);
+
 /// One morph target of the GLB: an expression at magnitude 1 and how far it is set.
 struct NamedMagnitude {
     std::string name;  ///< "AU12_L" or the ARKit name

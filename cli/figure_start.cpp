@@ -34,10 +34,16 @@ bool runs(const std::filesystem::path& file) {
     return std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
 }
 
-/// What went wrong; empty: nothing.
-std::string run_and_wait(const std::filesystem::path& program, std::vector<std::string> words) {
-    const auto name = words.front();
+std::filesystem::path beside_this(const std::string& name) {
+    std::error_code ignored;
+    return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name;
+}
+
+}  // namespace
+
+std::string run_program(const std::filesystem::path& program, std::vector<std::string> words) {
     auto arguments = pointers_to(words);
+    const auto name = program.filename().string();
     pid_t child = 0;
     const int error = posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ);
     if (error != 0)
@@ -51,15 +57,8 @@ std::string run_and_wait(const std::filesystem::path& program, std::vector<std::
     return {};
 }
 
-}  // namespace
-
-namespace {
-
-/// Beside this program, or on the PATH. @param missing  what the error ends with
-std::filesystem::path find_program(const char* name, const char* missing) {
-    std::error_code ignored;
-    auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name;
-    if (runs(beside)) return beside;
+std::filesystem::path find_own_program(const std::string& name) {
+    if (auto file = beside_this(name); runs(file)) return file;
     const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
     std::string_view folders = path ? path : "";
     while (!folders.empty()) {
@@ -68,22 +67,26 @@ std::filesystem::path find_program(const char* name, const char* missing) {
         folders = end == std::string_view::npos ? std::string_view() : folders.substr(end + 1);
         if (auto file = std::filesystem::path(folder) / name; !folder.empty() && runs(file)) return file;
     }
-    throw InputError(fmt::format("{} is neither {} nor on the PATH; {}", name, beside.string(), missing));
+    return {};
 }
 
-}  // namespace
-
 std::filesystem::path find_figure_program() {
-    return find_program(program_name, "install it (it is built unless MIMIK_FIGURES is OFF)");
+    if (auto file = find_own_program(program_name); !file.empty()) return file;
+    throw InputError(
+        fmt::format("{} is neither {} nor on the PATH; install it (it is built unless MIMIK_FIGURES is OFF)",
+                    program_name, beside_this(program_name).string()));
 }
 
 std::filesystem::path find_video_program() {
-    return find_program(video_program_name, "install it, or write a folder of meshes or a .glb instead");
+    if (auto file = find_own_program(video_program_name); !file.empty()) return file;
+    throw InputError(
+        fmt::format("{} is neither {} nor on the PATH; build it (it needs libopencv-dev), or write a .glb or a folder",
+                    video_program_name, beside_this(video_program_name).string()));
 }
 
 std::string write_video(const std::filesystem::path& frames, const std::filesystem::path& video, double rate_hz) {
-    return run_and_wait(find_video_program(), {video_program_name, "write", frames.string(), video.string(), "--fps",
-                                               fmt::format("{:g}", rate_hz)});
+    return run_program(find_video_program(), {video_program_name, "write", frames.string(), video.string(), "--fps",
+                                              fmt::format("{:g}", rate_hz)});
 }
 
 void become_figure_program(const std::vector<std::string>& arguments) {
@@ -98,8 +101,8 @@ std::string draw_figure(const std::filesystem::path& description, const std::fil
     std::string fault;
     try {
         // Its errors go to our standard error; there is nothing else that it says when quiet.
-        fault = run_and_wait(find_figure_program(),
-                             {program_name, "--description", description.string(), "-o", picture.string(), "--quiet"});
+        fault = run_program(find_figure_program(),
+                            {program_name, "--description", description.string(), "-o", picture.string(), "--quiet"});
     } catch (const InputError& e) {
         fault = e.what();
     }

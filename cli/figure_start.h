@@ -6,6 +6,12 @@
 
 namespace mimik::cli {
 
+/// A program of Mimik's that stands beside this one or on the PATH; empty: none.
+[[nodiscard]] std::filesystem::path find_own_program(const std::string& name);
+
+/// Runs it and waits; `words` begin with its name. Empty: done; else what went wrong. From any thread.
+[[nodiscard]] std::string run_program(const std::filesystem::path& program, std::vector<std::string> words);
+
 /// `mimik-figure`, which stands beside this program or on the PATH: VTK's libraries are then loaded only by those who
 /// draw. @throws InputError saying where it was looked for.
 [[nodiscard]] std::filesystem::path find_figure_program();

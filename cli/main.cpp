@@ -4,6 +4,7 @@
 #include "cli/help_pages.h"
 #include "cli/method_options.h"
 #include "cli/option_faults.h"
+#include "cli/performance_commands.h"
 #include "cli/terminal.h"
 
 int main(int argc, char** argv) {
@@ -34,6 +35,8 @@ int main(int argc, char** argv) {
     mimik::cli::add_warp_command(app, exit_code);
     mimik::cli::add_distance_command(app, exit_code);
     mimik::cli::add_mocap_command(app, exit_code);
+    mimik::cli::add_examples_command(app, exit_code);
+    mimik::cli::add_perform_command(app, exit_code);
     mimik::cli::add_regions_command(app, exit_code);
     mimik::cli::add_catalogue_command(app, exit_code);
     mimik::cli::add_version_command(app, exit_code);

@@ -1,0 +1,332 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "animation/expression_mapping.h"
+#include "animation/facial_examples.h"
+#include "animation/shape_performance.h"
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/output_folder.h"
+#include "base/text.h"
+#include "base/version.h"
+#include "capture/landmark_tables.h"
+#include "capture/live_link.h"
+#include "cli/command.h"
+#include "cli/error_report.h"
+#include "cli/notes.h"
+#include "cli/performance_commands.h"
+#include "cli/performance_output.h"
+#include "database/hidden_subjects.h"
+#include "io/json_values.h"
+
+namespace mimik::cli {
+namespace {
+
+struct Arguments {
+    Common common;
+    std::filesystem::path motion, examples, output, source_examples, weights;
+    std::vector<std::string> keys;
+    std::string rest;
+    std::optional<double> rate_hz;
+    double outer_eye_mm = capture::LandmarkTableOptions{}.outer_eye_mm;
+    bool wires = false;
+    int picture_size = 480;
+    animation::ExpressionMappingOptions options;
+};
+
+/// A table of motion, whichever it is.
+struct MotionTable {
+    std::optional<capture::FeatureMotion> features;
+    std::optional<capture::ShapeMotion> shapes;
+    std::string format;
+    std::vector<std::string> remarks;
+};
+
+MotionTable read_motion(const Arguments& arguments) {
+    const auto text = base::read_text(arguments.motion);
+    const auto name = arguments.motion.string();
+    capture::LandmarkTableOptions options;
+    options.rate_hz = arguments.rate_hz;
+    options.outer_eye_mm = arguments.outer_eye_mm;
+    check_by_option({{"rate_hz", "--rate"}, {"outer_eye_mm", "--outer-eye-mm"}}, [&] { options.check(); });
+    MotionTable table;
+    const auto take = [&](capture::LandmarkTable read, const char* format) {
+        table.features = std::move(read.motion);
+        table.remarks = std::move(read.remarks);
+        table.format = format;
+    };
+    switch (capture::motion_table_format(text, name)) {
+        case capture::MotionTableFormat::features:
+            table.features = capture::decode_feature_motion(text, name);
+            table.format = "feature motion";
+            break;
+        case capture::MotionTableFormat::points68:
+            take(capture::decode_points68_csv(text, name, options), "68 points");
+            break;
+        case capture::MotionTableFormat::openface:
+            take(capture::decode_openface_csv(text, name, options), "OpenFace");
+            break;
+        case capture::MotionTableFormat::live_link:
+            table.shapes = capture::decode_live_link_csv(text, name, arguments.rate_hz);
+            table.remarks = table.shapes->remarks;
+            table.format = "Live Link Face";
+            break;
+    }
+    return table;
+}
+
+std::size_t frame_number(const std::string& typed, std::string_view text, const char* option) {
+    const auto number = base::parse_integer(text);
+    if (!number || *number < 0)
+        throw InputError(fmt::format("{} {}: {} is no frame; give whole numbers from 0 on", option,
+                                     base::in_quotes(typed), base::in_quotes(text)));
+    return static_cast<std::size_t>(*number);
+}
+
+/// --neutral A:B; without it the first half second.
+animation::PerformerRest rest_of(const Arguments& arguments, const capture::FeatureMotion& motion) {
+    if (motion.frames.empty()) throw InputError(fmt::format("{}: there is no frame", arguments.motion.string()));
+    if (!arguments.rest.empty()) {
+        const auto colon = arguments.rest.find(':');
+        const auto first = frame_number(arguments.rest, std::string_view(arguments.rest).substr(0, colon), "--neutral");
+        const auto last =
+            colon == std::string::npos
+                ? first
+                : frame_number(arguments.rest, std::string_view(arguments.rest).substr(colon + 1), "--neutral");
+        return animation::performer_rest(motion, first, last);
+    }
+    // Half a second of frames in which the face is seen, from the first of them on.
+    std::size_t first = 0;
+    while (first + 1 < motion.frames.size() && motion.frames[first].state == capture::TrackState::lost) ++first;
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::round(0.5 * motion.rate_hz)));
+    return animation::performer_rest(motion, first, std::min(first + count, motion.frames.size()) - 1);
+}
+
+std::vector<animation::KeyFrame> key_frames(const std::vector<std::string>& typed) {
+    std::vector<animation::KeyFrame> keys;
+    for (const auto& text : typed) {
+        const auto sign = text.find('=');
+        if (sign == std::string::npos || sign == 0)
+            throw InputError(fmt::format("--key {}: give EXAMPLE=FRAME, such as smile=120", base::in_quotes(text)));
+        keys.push_back({text.substr(0, sign), frame_number(text, std::string_view(text).substr(sign + 1), "--key")});
+    }
+    return keys;
+}
+
+/// What the performer does in the examples that the character has.
+modeling::SourceExamples source_of(const Arguments& arguments, const capture::FeatureMotion& motion,
+                                   const animation::PerformerRest& rest, const animation::FacialExamples& character,
+                                   std::vector<std::string>& remarks) {
+    modeling::SourceExamples source;
+    if (!arguments.keys.empty()) {
+        source = animation::performer_examples(motion, rest, key_frames(arguments.keys));
+    } else {
+        double factor = 1;
+        const auto table = arguments.source_examples.empty()
+                               ? modeling::standard_source_examples()
+                               : modeling::read_source_examples(arguments.source_examples);
+        source = animation::fitted_examples(table, motion, rest, &factor);
+        remarks.push_back(fmt::format("the performer's face is {:.2f} times as wide at the eyes as that of {}", factor,
+                                      arguments.source_examples.empty() ? std::string("the built-in examples")
+                                                                        : arguments.source_examples.string()));
+    }
+    std::vector<std::string> shared, missing;
+    for (const auto& name : source.examples) {
+        const bool there = std::any_of(character.examples.begin(), character.examples.end(),
+                                       [&](const animation::FacialExample& example) { return example.name == name; });
+        (there ? shared : missing).push_back(name);
+    }
+    if (shared.empty())
+        throw InputError(fmt::format("{}: has none of the examples {}; name its own with --key or --source-examples",
+                                     arguments.examples.string(), fmt::join(missing, ", ")));
+    if (!missing.empty())
+        remarks.push_back(fmt::format("{}: has no example {}, so the performer's is left out",
+                                      arguments.examples.string(), fmt::join(missing, ", ")));
+    return modeling::with_examples(source, shared);
+}
+
+/// The columns of the character's examples; one without a column stays 0, with a remark.
+Eigen::MatrixXd columns_of(const animation::FacialExamples& character, const animation::MappedPerformance& mapped,
+                           std::vector<std::string>& remarks) {
+    Eigen::MatrixXd weights =
+        Eigen::MatrixXd::Zero(mapped.weights.rows(), static_cast<Eigen::Index>(character.examples.size()));
+    std::vector<std::string> still;
+    for (std::size_t k = 0; k < character.examples.size(); ++k) {
+        const auto& name = character.examples[k].name;
+        const auto it = std::find(mapped.examples.begin(), mapped.examples.end(), name);
+        if (it == mapped.examples.end())
+            still.push_back(name);
+        else
+            weights.col(static_cast<Eigen::Index>(k)) = mapped.weights.col(it - mapped.examples.begin());
+    }
+    if (!still.empty()) remarks.push_back(fmt::format("nothing drives {}", fmt::join(still, ", ")));
+    return weights;
+}
+
+struct Outcome {
+    animation::MappedPerformance mapped;
+    std::vector<std::string> remarks;
+    nlohmann::json details = nlohmann::json::object();
+};
+
+Outcome map_features(const Arguments& arguments, const capture::FeatureMotion& motion,
+                     const animation::FacialExamples& character) {
+    Outcome outcome;
+    const auto rest = naming(arguments.motion, [&] { return rest_of(arguments, motion); });
+    const animation::ExpressionMapping mapping(source_of(arguments, motion, rest, character, outcome.remarks),
+                                               arguments.options);
+    outcome.mapped = animation::map_performance(motion, rest, mapping);
+    const auto& parameters = mapping.parameters();
+    outcome.details = {{"features", mapping.source().features.size()},
+                       {"coordinates", 3 * mapping.source().features.size()},
+                       {"dimensions", parameters.dimensions()},
+                       {"kept_variance", parameters.kept_share},
+                       {"loss_rms_mm", parameters.loss_rms_mm},
+                       {"largest_loss_rms_mm", parameters.largest_loss_rms_mm},
+                       {"linear_residual", mapping.basis().largest_residual()},
+                       {"unexplained_mm", outcome.mapped.median_unexplained_mm}};
+    outcome.remarks.push_back(
+        fmt::format("{} coordinates of features became {} parameters, which keep {:.3f} % of the variance; examples "
+                    "lose {:.3f} mm rms",
+                    3 * mapping.source().features.size(), parameters.dimensions(), 100 * parameters.kept_share,
+                    parameters.loss_rms_mm));
+    return outcome;
+}
+
+void say_overshoot(const Arguments& arguments, Outcome& outcome) {
+    const auto& mapped = outcome.mapped;
+    if (mapped.overshoots + mapped.negatives == 0) return;
+    outcome.remarks.push_back(fmt::format(
+        "weights go from {:.2f} to {:.2f}: above 1 in {}, below 0 in {} of {} frames{}", mapped.least_weight,
+        mapped.largest_weight, mapped.overshoots, mapped.negatives, mapped.times_s.size(),
+        arguments.options.clamp ? ", clamped" : "; --clamp keeps them between 0 and 1"));
+}
+
+void report(const Arguments& arguments, const MotionTable& table, Outcome& outcome) {
+    const auto& mapped = outcome.mapped;
+    if (arguments.common.json) {
+        outcome.details.update({{"schema", 1},
+                                {"output", arguments.output.string()},
+                                {"format", table.format},
+                                {"frames", mapped.times_s.size()},
+                                {"lost", mapped.lost},
+                                {"rate_hz", mapped.rate_hz},
+                                {"examples", mapped.examples},
+                                {"least_weight", mapped.least_weight},
+                                {"largest_weight", mapped.largest_weight},
+                                {"overshoots", mapped.overshoots},
+                                {"negatives", mapped.negatives},
+                                {"remarks", outcome.remarks}});
+        std::cout << io::json_text(outcome.details);
+        return;
+    }
+    if (!arguments.common.quiet) say_notes(outcome.remarks);
+    std::cout << fmt::format("{}: {} at {:g} a second, {} lost, by {}\n", arguments.output.string(),
+                             base::counted(mapped.times_s.size(), "frame"), mapped.rate_hz, mapped.lost,
+                             base::counted(mapped.examples.size(), "example"));
+}
+
+int run(const Arguments& arguments) {
+    check_by_option(
+        {{"gain", "--gain"}, {"least_eigenvalue_share", "--least-eigenvalue-share"}, {"ridge_share", "--ridge"}},
+        [&] { arguments.options.check(); });
+    if (!arguments.keys.empty() && !arguments.source_examples.empty())
+        throw InputError("--key: --source-examples says what the performer does, too; give one of them");
+    check_performance_output(arguments.output);
+    for (const auto& file : {arguments.motion, arguments.source_examples})
+        if (!file.empty()) database::refuse_hidden_file(file);
+    Performance performance;
+    const auto neutral_file = arguments.examples / "neutral.ply";
+    if (std::filesystem::exists(neutral_file)) database::refuse_hidden_file(neutral_file);
+    performance.character = animation::read_facial_examples(arguments.examples);
+    auto table = read_motion(arguments);
+    Outcome outcome;
+    if (table.shapes) {
+        outcome.mapped = animation::map_shapes(*table.shapes, performance.character, arguments.options);
+    } else {
+        outcome = map_features(arguments, *table.features, performance.character);
+    }
+    outcome.remarks.insert(outcome.remarks.begin(), table.remarks.begin(), table.remarks.end());
+    say_overshoot(arguments, outcome);
+    performance.weights = columns_of(performance.character, outcome.mapped, outcome.remarks);
+    performance.times_s = outcome.mapped.times_s;
+    performance.rate_hz = outcome.mapped.rate_hz;
+    performance.picture_size = arguments.picture_size;
+    performance.made_by = {{"made_by", fmt::format("Mimik {} perform", base::version())},
+                           {"motion", arguments.motion.filename().string()}};
+    for (auto& said : database::said_in_files(database::origin_to_carry(std::vector{neutral_file})))
+        performance.made_by.push_back(std::move(said));
+    std::optional<animation::WireExamples> wires;
+    if (arguments.wires) {
+        wires.emplace(animation::extract_wires(performance.character));
+        performance.wires = &*wires;
+        outcome.remarks.push_back(fmt::format(
+            "{} in the place of {}: they are {:.2f} mm rms off the examples, where "
+            "these move by {:.2f} mm rms",
+            base::counted(wires->wires().size(), "wire"), base::counted(wires->vertices(), "vertex", "vertices"),
+            wires->error().rms_mm, wires->error().motion_rms_mm));
+        outcome.details["wire_error_rms_mm"] = wires->error().rms_mm;
+        outcome.details["motion_rms_mm"] = wires->error().motion_rms_mm;
+    }
+    if (!arguments.weights.empty())
+        base::write_atomically(arguments.weights, animation::encode_weights(outcome.mapped));
+    for (auto& remark : write_performance(arguments.output, performance, arguments.common))
+        outcome.remarks.push_back(std::move(remark));
+    report(arguments, table, outcome);
+    return exit_done;
+}
+
+}  // namespace
+
+void add_perform_command(CLI::App& app, int& exit_code) {
+    auto arguments = std::make_shared<Arguments>();
+    auto* command = app.add_subcommand("perform", "Let a performer's motion move a character by its examples");
+    command
+        ->add_option("MOTION", arguments->motion,
+                     "Table of feature motion, 68 points, OpenFace or Live Link Face (.csv; docs/formats.md)")
+        ->required();
+    command->add_option("--examples", arguments->examples, "Folder of 'mimik examples', or your own with examples.toml")
+        ->required();
+    command->add_option("-o,--output", arguments->output, ".glb, .mp4, or a folder for pictures")->required();
+    command->add_option("--key", arguments->keys,
+                        "EXAMPLE=FRAME of the motion that shows it, such as smile=120; repeat");
+    command->add_option("--source-examples", arguments->source_examples,
+                        "Or a table of what features do in the examples (features.csv of 'mimik examples')");
+    command->add_option("--neutral", arguments->rest,
+                        "Frames A:B in which the performer is at rest (default: the first half second seen)");
+    command->add_option("--gain", arguments->options.gain, "Below 1 attenuates, above exaggerates")
+        ->capture_default_str();
+    command->add_flag("--clamp", arguments->options.clamp, "Keep weights between 0 and 1, before the gain");
+    command
+        ->add_option("--least-eigenvalue-share", arguments->options.parameters.least_eigenvalue_share,
+                     "Axes of less of the variance are dropped")
+        ->capture_default_str();
+    command
+        ->add_option("--ridge", arguments->options.basis.ridge_share,
+                     "Of the linear part; 0: the paper's plain least squares, which noise upsets more")
+        ->capture_default_str();
+    command->add_flag("--wires", arguments->wires, "Blend wires along feature lines instead of vertices");
+    command->add_option("--weights", arguments->weights, "Write the weights as a table, too (.csv)");
+    command->add_option("--rate", arguments->rate_hz, "Frames a second of tables that do not say it");
+    command
+        ->add_option("--outer-eye-mm", arguments->outer_eye_mm,
+                     "Between the performer's outer eye corners, of tables of pixels")
+        ->capture_default_str();
+    command->add_option("--size", arguments->picture_size, "Of pictures and video, pixels")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    add_common_options(*command, arguments->common);
+    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace mimik::cli

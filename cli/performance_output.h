@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "animation/expression_mapping.h"
+#include "animation/facial_examples.h"
+#include "animation/wires.h"
+#include "cli/command.h"
+#include "io/mesh_io.h"
+
+// What 'mimik perform' writes.
+
+namespace mimik::cli {
+
+/// A character and its weights over time; a column of the weights per example of the character.
+struct Performance {
+    animation::FacialExamples character;
+    Eigen::MatrixXd weights;
+    std::vector<double> times_s;
+    double rate_hz = 30.0;
+    const animation::WireExamples* wires = nullptr;  ///< blended in the place of vertices; null: vertices are
+    int picture_size = 480;                          ///< pixels
+    io::MadeBy made_by;
+};
+
+/// Finds out before the work what cannot be written. @throws InputError for a format that is not known, or a video
+/// where nobody can write one.
+void check_performance_output(const std::filesystem::path& output);
+
+/// .glb (morph targets whose weights move), .mp4 (by mimik-video) or a folder of pictures frame_000000.png, ...
+/// @return remarks
+[[nodiscard]] std::vector<std::string> write_performance(const std::filesystem::path& output,
+                                                         const Performance& performance, const Common& common);
+
+}  // namespace mimik::cli

@@ -1,0 +1,53 @@
+#include "capture/live_link.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/errors.h"
+#include "tests/support/thrown.h"
+
+namespace mimik::capture {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* header = "Timecode,BlendShapeCount,EyeBlinkLeft,MouthSmileRight,HeadYaw\n";
+
+TEST(LiveLink, channels_have_arkits_names_and_a_row_of_no_shapes_is_lost) {
+    const auto motion = decode_live_link_csv(std::string(header) +
+                                                 "23:59:59:58.500,3,0.25,0.5,-0.1\n"
+                                                 "23:59:59:59.500,0\n"
+                                                 "00:00:00:00.500,3,1,0,0.3\n",
+                                             "l.csv");
+    EXPECT_THAT(motion.shapes, ElementsAre("eyeBlinkLeft", "mouthSmileRight", "HeadYaw"));
+    EXPECT_EQ(motion.rate_hz, 60);  // the next above 59 of those that there are
+    EXPECT_THAT(motion.tracked, ElementsAre(1, 0, 1));
+    EXPECT_EQ(motion.values(0, 1), 0.5);
+    EXPECT_EQ(motion.values(2, 0), 1.0);
+    EXPECT_TRUE(motion.values.row(1).isZero(0));
+    EXPECT_EQ(motion.times_s[0], 0);
+    EXPECT_NEAR(motion.times_s[1], 1.0 / 60, 1e-9);  // of 86,400 s in doubles
+    EXPECT_NEAR(motion.times_s[2], 2.0 / 60, 1e-9) << "over midnight";
+}
+
+TEST(LiveLink, what_is_wrong_is_named_with_file_line_and_mend) {
+    const auto refusal = [](const std::string& text) {
+        return test::message_of([&] { (void)decode_live_link_csv(text, "l.csv"); });
+    };
+    const std::string good = "10:00:00:00.0,3,0,0,0\n";
+    EXPECT_THAT(refusal("frame,x\n"), HasSubstr("this is no table of Live Link Face"));
+    EXPECT_THAT(refusal(std::string(header) + "25:00:00:00,3,0,0,0\n"),
+                HasSubstr("l.csv: line 2: Timecode is '25:00:00:00'"));
+    EXPECT_THAT(refusal(std::string(header) + "10:00:00,3,0,0,0\n"), HasSubstr("give HH:MM:SS:FF"));
+    EXPECT_THAT(refusal(std::string(header) + "10:00:00:00,2,0,0,0\n"),
+                HasSubstr("BlendShapeCount is '2'; give 3, or 0"));
+    EXPECT_THAT(refusal(std::string(header) + "10:00:00:00,3,0,0\n"), HasSubstr("the line ends before 'HeadYaw'"));
+    EXPECT_THAT(refusal(std::string(header) + "10:00:00:00,3,0,x,0\n"),
+                HasSubstr("MouthSmileRight is 'x', not a finite number"));
+    EXPECT_THAT(refusal(std::string(header) + good + good), HasSubstr("timecodes do not grow from row 1 to 2"));
+    EXPECT_THAT(refusal("Timecode,BlendShapeCount,A,A\n"), HasSubstr("column 4 has no name or another's name"));
+}
+
+}  // namespace
+}  // namespace mimik::capture
