@@ -101,6 +101,24 @@ public:
         return keep(end_view(view, type_uint32, "SCALAR", 3 * triangles.size()));
     }
 
+    /// Plain numbers that belong to no vertex; the bounds are those of the rounded numbers.
+    std::size_t add_scalars(std::span<const double> values, bool with_range) {
+        const auto view = begin_view(std::nullopt);
+        float smallest = std::numeric_limits<float>::max(), largest = -smallest;
+        for (const double value : values) {
+            const auto rounded = static_cast<float>(value);
+            append(bytes_, rounded);
+            smallest = std::min(smallest, rounded);
+            largest = std::max(largest, rounded);
+        }
+        Json accessor = end_view(view, type_float, "SCALAR", values.size());
+        if (with_range) {
+            accessor["min"] = {smallest};
+            accessor["max"] = {largest};
+        }
+        return keep(std::move(accessor));
+    }
+
     std::size_t add_image(std::span<const std::uint8_t> png) {
         const auto view = begin_view(std::nullopt);
         bytes_.append(formats::as_text(png));
@@ -212,6 +230,43 @@ void check(const GlbMesh& mesh) {
                     if (!std::isfinite(static_cast<float>(attribute.values[corner * per_vertex + c])))
                         not_finite(fmt::format("attribute '{}' of vertex {}", attribute.name, corner));
     }
+}
+
+/// @throws as encode_glb, of the animation alone.
+void check_animation(const GlbMesh& mesh) {
+    if (!mesh.animation) return;
+    const auto& [name, times_s, weights] = *mesh.animation;
+    const auto where = fmt::format("mesh '{}': animation '{}'", mesh.name, name);
+    const auto targets = mesh.morph_targets.size();
+    if (targets == 0) throw InputError(where + " moves no morph target; give some, or leave the animation out");
+    if (targets > most_animated_targets)
+        throw InputError(fmt::format("{} moves {} morph targets, and {} is the most; leave some out", where, targets,
+                                     most_animated_targets));
+    if (times_s.empty()) throw InputError(where + " has no frame; give at least one");
+    if (weights.size() != times_s.size() * targets)
+        throw InputError(fmt::format("{} has {} for {} of {}", where, base::counted(weights.size(), "weight"),
+                                     base::counted(times_s.size(), "frame"), base::counted(targets, "target")));
+    for (std::size_t k = 0; k < times_s.size(); ++k) {
+        const auto time = static_cast<float>(times_s[k]);
+        if (!std::isfinite(time) || time < 0)
+            throw InputError(fmt::format("{}: time {} is {}; give seconds from 0 on", where, k, times_s[k]));
+        if (k > 0 && time <= static_cast<float>(times_s[k - 1]))
+            throw InputError(fmt::format("{}: time {} is {} s after {} s; give times that grow in 32 bits", where, k,
+                                         times_s[k], times_s[k - 1]));
+    }
+    for (std::size_t k = 0; k < weights.size(); ++k)
+        if (!std::isfinite(static_cast<float>(weights[k])))
+            throw NumericalError(fmt::format("{}: weight {} of frame {} is {}, not finite in 32 bits", where,
+                                             k % targets, k / targets, weights[k]));
+}
+
+/// One channel that sets the weights of the one node.
+Json animation_json(const WeightAnimation& animation, Buffer& buffer) {
+    const auto input = buffer.add_scalars(animation.times_s, true);
+    const auto output = buffer.add_scalars(animation.weights, false);
+    return {{"name", animation.name},
+            {"samplers", Json::array({{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}})},
+            {"channels", Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}})}};
 }
 
 template <class T>
@@ -366,6 +421,7 @@ std::vector<std::uint8_t> framed(std::string text, std::string binary) {
 
 std::vector<std::uint8_t> encode_glb(const GlbMesh& mesh) {
     check(mesh);
+    check_animation(mesh);
     Buffer buffer;
     // Skin: no metal, rather dull. Scans are open surfaces, so both sides are drawn.
     Json surface = {{"metallicFactor", 0.0}, {"roughnessFactor", 0.8}};
@@ -394,6 +450,7 @@ std::vector<std::uint8_t> encode_glb(const GlbMesh& mesh) {
         const int wrap = repeats_texture(mesh) ? repeat : clamp;
         json["samplers"] = Json::array({{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", wrap}, {"wrapT", wrap}}});
     }
+    if (mesh.animation) json["animations"] = Json::array({animation_json(*mesh.animation, buffer)});
     auto binary = buffer.bytes();
     json["accessors"] = std::move(buffer.accessors);
     json["bufferViews"] = std::move(buffer.views);
@@ -411,6 +468,29 @@ void write_glb(const std::filesystem::path& file, const GlbMesh& mesh) {
         throw NumericalError(fmt::format("{}: not written: {}", file.string(), e.what()));
     }
     base::write_atomically(file, formats::as_text(bytes));
+}
+
+std::vector<std::string> animation_remarks(const GlbMesh& mesh) {
+    if (!mesh.animation || mesh.morph_targets.empty()) return {};
+    constexpr double active = 1e-3;  // of a displacement; what is less is not seen
+    const auto targets = static_cast<std::ptrdiff_t>(mesh.morph_targets.size());
+    const auto& weights = mesh.animation->weights;
+    std::ptrdiff_t most = 0, most_frame = 0, frames = 0;
+    for (std::ptrdiff_t at = 0; at + targets <= std::ssize(weights); at += targets) {
+        const auto count = std::count_if(weights.begin() + at, weights.begin() + at + targets,
+                                         [](double w) { return std::abs(w) > active; });
+        frames += count > static_cast<std::ptrdiff_t>(most_active_targets) ? 1 : 0;
+        if (count > most) {
+            most = count;
+            most_frame = at / targets;
+        }
+    }
+    if (frames == 0) return {};
+    return {
+        fmt::format("more than {} morph targets are active at once in {}, {} in frame {}; viewers need not show "
+                    "more than {}",
+                    most_active_targets, base::counted(static_cast<std::uint64_t>(frames), "frame"), most, most_frame,
+                    most_active_targets)};
 }
 
 GlbMesh glb_mesh(const Mesh& mesh, std::vector<std::uint32_t>* source_vertex) {

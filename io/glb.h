@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -20,6 +21,13 @@ struct MorphTarget {
     std::string arkit_name = {};                    ///< of the same shape in ARKit; empty: none
 };
 
+/// Weights of the morph targets over time; a viewer goes straight from one frame to the next.
+struct WeightAnimation {
+    std::string name = "performance";
+    std::vector<double> times_s;  ///< from 0 on, each later than the one before
+    std::vector<double> weights;  ///< frame after frame, one per morph target
+};
+
 struct GlbMesh {
     std::string name = "face";
     std::vector<geometry::Point> positions_mm;
@@ -34,7 +42,11 @@ struct GlbMesh {
     std::vector<geometry::VertexAttribute> attributes;
     std::vector<std::pair<std::string, std::string>> extras;        ///< kept in mesh.extras beside targetNames
     std::vector<std::pair<std::string, std::string>> asset_extras;  ///< kept in asset.extras, e.g. the target's name
+    std::optional<WeightAnimation> animation = {};                  ///< one channel; none: a face at rest
 };
+
+/// glTF asks no more of viewers than 8 morph targets at once, and engines hold few hundred.
+inline constexpr std::size_t most_active_targets = 8, most_animated_targets = 256;
 
 /// One mesh as glTF 2.0, binary: metres, v counted downward, 32-bit floats. Vertices that no triangle uses are left out
 /// (so bridged or outside vertices may hold NaN). Morph targets carry the change of the normals too;
@@ -42,9 +54,14 @@ struct GlbMesh {
 /// order, "" where there is none. Attributes are written in their own units under their names in capitals after an
 /// underscore, as glTF asks. A mesh that reaches further than 10 m from the origin stands in a node with a translation
 /// of whole metres, so that its 32-bit positions keep their 0.001 mm. A picture repeats where positions leave [0, 1].
+/// An animation is one channel of weights with its times in seconds; it moves at most 256 targets.
 /// @throws InputError naming the mesh and the part that does not fit; NumericalError for what is not finite in 32 bits.
 [[nodiscard]] std::vector<std::uint8_t> encode_glb(const GlbMesh& mesh);
 void write_glb(const std::filesystem::path& file, const GlbMesh& mesh);
+
+/// What a user should hear of an animation: more than 8 targets that are active at once in some frame, of which some
+/// viewers show only the 8 largest. Empty: nothing.
+[[nodiscard]] std::vector<std::string> animation_remarks(const GlbMesh& mesh);
 
 /// Triangulated mesh with one texture position per vertex: a vertex on a texture seam becomes several. Colours and
 /// attributes go along. `source_vertex` (if asked for) says which vertex of `mesh` each comes from, to carry

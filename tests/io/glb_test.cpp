@@ -129,6 +129,64 @@ TEST(Glb, morph_targets_keep_their_names_weights_and_displacements) {
     EXPECT_THAT(std::vector<float>(moved.begin() + 18, moved.begin() + 21), ElementsAre(0.001F, 0.002F, 0.007F));
 }
 
+/// 3 frames of the 2 targets of the sheet.
+GlbMesh moving_sheet() {
+    auto mesh = textured_mesh();
+    mesh.animation = WeightAnimation{"smile", {0, 0.5, 1.25}, {0, 0, 0.5, -0.25, 1, 2}};
+    return mesh;
+}
+
+TEST(Glb, an_animation_keeps_its_times_and_weights_frame_after_frame) {
+    const auto glb = encode_glb(moving_sheet());
+    EXPECT_THAT(test::glb_faults(glb), IsEmpty());
+    const auto chunks = split(glb);
+    const auto& animation = chunks.json["animations"][0];
+    EXPECT_EQ(animation["name"], "smile");
+    EXPECT_EQ(animation["channels"][0]["target"], Json({{"node", 0}, {"path", "weights"}}));
+    const auto& sampler = animation["samplers"][0];
+    EXPECT_EQ(sampler["interpolation"], "LINEAR");
+    EXPECT_THAT(floats_of(chunks, sampler["input"].get<std::size_t>()), ElementsAre(0.0F, 0.5F, 1.25F));
+    EXPECT_THAT(floats_of(chunks, sampler["output"].get<std::size_t>()),
+                ElementsAre(0.0F, 0.0F, 0.5F, -0.25F, 1.0F, 2.0F));
+    EXPECT_EQ(chunks.json["meshes"][0]["extras"]["targetNames"], Json({"AU12_L", "AU12_R"}));
+}
+
+TEST(Glb, an_animation_that_does_not_fit_is_refused_by_name) {
+    const auto refusal = [](auto change) -> std::string {
+        auto mesh = moving_sheet();
+        change(mesh);
+        try {
+            (void)encode_glb(mesh);
+        } catch (const std::exception& e) {
+            return e.what();
+        }
+        return "written";
+    };
+    EXPECT_THAT(refusal([](GlbMesh& m) { m.animation->weights.pop_back(); }), HasSubstr("5 weights for 3 frames of 2"));
+    EXPECT_THAT(refusal([](GlbMesh& m) { m.animation->times_s[2] = 0.5; }), HasSubstr("give times that grow"));
+    EXPECT_THAT(refusal([](GlbMesh& m) { m.animation->times_s[0] = -1; }), HasSubstr("give seconds from 0 on"));
+    EXPECT_THAT(refusal([](GlbMesh& m) { m.animation->weights[3] = std::nan(""); }),
+                HasSubstr("weight 1 of frame 1 is nan"));
+    EXPECT_THAT(refusal([](GlbMesh& m) { m.morph_targets.clear(); }), HasSubstr("moves no morph target"));
+    EXPECT_THAT(refusal([](GlbMesh& m) { m.animation = WeightAnimation{}; }), HasSubstr("has no frame"));
+    EXPECT_THAT(refusal([](GlbMesh& m) {
+                    m.morph_targets.resize(257, m.morph_targets[0]);
+                    m.animation->weights.resize(3 * 257);
+                }),
+                HasSubstr("257 morph targets, and 256 is the most"));
+}
+
+TEST(Glb, more_than_8_targets_at_once_are_said) {
+    auto mesh = moving_sheet();
+    EXPECT_THAT(animation_remarks(mesh), IsEmpty());
+    mesh.morph_targets.resize(9, mesh.morph_targets[0]);
+    mesh.animation->weights.assign(27, 0.0);
+    std::fill_n(mesh.animation->weights.begin() + 9, 8, 0.5);
+    EXPECT_THAT(animation_remarks(mesh), IsEmpty());
+    mesh.animation->weights[17] = -0.5;
+    EXPECT_THAT(animation_remarks(mesh), ElementsAre(HasSubstr("in 1 frame, 9 in frame 1")));
+}
+
 TEST(Glb, attributes_are_the_files_own_in_capitals_and_their_own_units) {
     const auto glb = encode_glb(textured_mesh());
     const auto chunks = split(glb);

@@ -88,6 +88,33 @@ private:
         for (std::size_t a = 0; a < json_.at("accessors").size(); ++a) check_accessor(a);
         for (const auto& mesh : json_.at("meshes")) check_mesh(mesh);
         check_links();
+        for (const auto& animation : json_.value("animations", Json::array())) check_animation(animation);
+    }
+
+    /// One sampler and one channel of weights: times grow, and every frame has a number for each morph target.
+    void check_animation(const Json& animation) {
+        require(animation.at("samplers").size() == 1 && animation.at("channels").size() == 1, "not one channel");
+        const auto& sampler = animation["samplers"][0];
+        const auto& channel = animation["channels"][0];
+        expect(channel.at("sampler") == 0, "a channel names a sampler that there is not");
+        expect(channel.at("target").at("path") == "weights", "a channel moves no weights");
+        const auto& node = json_.at("nodes").at(channel["target"].at("node").get<std::size_t>());
+        const auto& mesh = json_.at("meshes").at(node.at("mesh").get<std::size_t>());
+        const auto input = sampler.at("input").get<std::size_t>(), output = sampler.at("output").get<std::size_t>();
+        for (const auto accessor : {input, output}) {
+            const auto& a = json_["accessors"].at(accessor);
+            expect(a.at("type") == "SCALAR" && a.at("componentType") == 5126, "an animation is not of floats");
+            expect(!json_["bufferViews"][a["bufferView"].get<std::size_t>()].contains("target"),
+                   "an animation stands in a view of vertices");
+        }
+        expect(json_["accessors"][input].contains("min") && json_["accessors"][input].contains("max"),
+               "times have no bounds");
+        const auto times = values(input);
+        for (std::size_t k = 0; k < times.size(); ++k)
+            expect(times[k] >= 0 && (k == 0 || times[k] > times[k - 1]), "times do not grow from 0 on");
+        const auto targets = mesh.at("primitives")[0].value("targets", Json::array()).size();
+        expect(targets > 0 && values(output).size() == times.size() * targets,
+               "weights are not one per frame and morph target");
     }
 
     [[nodiscard]] std::vector<double> values(std::size_t accessor) const {
