@@ -78,6 +78,7 @@ void add_verify_command(CLI::App& app, int& exit_code);
 void add_tune_command(CLI::App& app, int& exit_code);
 void add_warp_command(CLI::App& app, int& exit_code);
 void add_distance_command(CLI::App& app, int& exit_code);
+void add_figures_command(CLI::App& app, int& exit_code);
 void add_figure_command(CLI::App& app, int& exit_code);
 void add_catalogue_command(CLI::App& app, int& exit_code);
 void add_help_command(CLI::App& app, int& exit_code);

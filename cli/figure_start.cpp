@@ -44,8 +44,23 @@ std::string run_and_wait(const std::filesystem::path& program, std::vector<std::
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR)
             return fmt::format("{} was lost: {}", program.string(), std::system_category().message(errno));
-    if (WIFSIGNALED(status)) return fmt::format("{} was ended by signal {}", program_name, WTERMSIG(status));
-    if (WEXITSTATUS(status) != 0) return fmt::format("{} ended with {}", program_name, WEXITSTATUS(status));
+    if (WIFSIGNALED(status))
+        return fmt::format("{} was ended by signal {}", program.filename().string(), WTERMSIG(status));
+    if (WEXITSTATUS(status) != 0)
+        return fmt::format("{} ended with {}", program.filename().string(), WEXITSTATUS(status));
+    return {};
+}
+
+/// A program in one of the folders of PATH; empty: it is in none.
+std::filesystem::path on_the_path(const char* name) {
+    const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
+    std::string_view folders = path ? path : "";
+    while (!folders.empty()) {
+        const auto end = folders.find(':');
+        const auto folder = folders.substr(0, end);
+        folders = end == std::string_view::npos ? std::string_view() : folders.substr(end + 1);
+        if (auto file = std::filesystem::path(folder) / name; !folder.empty() && runs(file)) return file;
+    }
     return {};
 }
 
@@ -55,14 +70,7 @@ std::filesystem::path find_figure_program() {
     std::error_code ignored;
     auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / program_name;
     if (runs(beside)) return beside;
-    const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
-    std::string_view folders = path ? path : "";
-    while (!folders.empty()) {
-        const auto end = folders.find(':');
-        const auto folder = folders.substr(0, end);
-        folders = end == std::string_view::npos ? std::string_view() : folders.substr(end + 1);
-        if (auto file = std::filesystem::path(folder) / program_name; !folder.empty() && runs(file)) return file;
-    }
+    if (auto file = on_the_path(program_name); !file.empty()) return file;
     throw InputError(
         fmt::format("{} is neither {} nor on the PATH; install it (it is built unless MIMIK_FIGURES is OFF)",
                     program_name, beside.string()));
@@ -87,6 +95,18 @@ std::string draw_figure(const std::filesystem::path& description, const std::fil
     }
     if (fault.empty()) return {};
     return fmt::format("{}: not drawn: {}", picture.string(), fault);
+}
+
+std::filesystem::path find_svg_program() { return on_the_path("rsvg-convert"); }
+
+std::string convert_svg(const std::filesystem::path& svg, const std::filesystem::path& file) {
+    const bool pdf = file.extension() == ".pdf";
+    // Plots are laid out for 96 dots an inch; a PDF has no dots.
+    std::vector<std::string> words = {"rsvg-convert", "--format", pdf ? "pdf" : "png", "--output", file.string()};
+    if (!pdf) words.insert(words.end(), {"--dpi-x", "300", "--dpi-y", "300", "--zoom", "3.125"});
+    words.push_back(svg.string());
+    const auto fault = run_and_wait(find_svg_program(), words);
+    return fault.empty() ? fault : fmt::format("{}: not written: {}", file.string(), fault);
 }
 
 }  // namespace mimik::cli

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_verify_command(app, exit_code);
     mimik::cli::add_tune_command(app, exit_code);
     mimik::cli::add_panels_command(app, exit_code);
+    mimik::cli::add_figures_command(app, exit_code);
     mimik::cli::add_figure_command(app, exit_code);
     mimik::cli::add_warp_command(app, exit_code);
     mimik::cli::add_distance_command(app, exit_code);
