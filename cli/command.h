@@ -80,6 +80,7 @@ void add_tune_command(CLI::App& app, int& exit_code);
 void add_sensitivity_command(CLI::App& app, int& exit_code);
 void add_warp_command(CLI::App& app, int& exit_code);
 void add_distance_command(CLI::App& app, int& exit_code);
+void add_figures_command(CLI::App& app, int& exit_code);
 void add_figure_command(CLI::App& app, int& exit_code);
 void add_catalogue_command(CLI::App& app, int& exit_code);
 void add_help_command(CLI::App& app, int& exit_code);

@@ -8,7 +8,8 @@
 namespace mimik::cli {
 
 void add_figure_command(CLI::App& app, int& /*exit_code*/) {
-    auto* command = app.add_subcommand("figure", "Draw faces side by side, without needing a display");
+    auto* command = app.add_subcommand(
+        "figure", "Draw any meshes side by side, without needing a display (figures of a workspace: 'figures')");
     const auto arguments = std::make_shared<FigureArguments>();
     add_figure_options(*command, *arguments);
     command->callback([arguments] {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/file.h"
 #include "base/output_folder.h"
 #include "base/text.h"
 #include "cli/command.h"
@@ -17,6 +18,7 @@
 #include "cli/figure_options.h"
 #include "cli/notes.h"
 #include "cli/terminal.h"
+#include "figures/png_resolution.h"
 #include "io/json_values.h"
 #include "report/figure_description.h"
 
@@ -99,7 +101,9 @@ void draw(const FigureArguments& arguments) {
     const auto figure = naming_any(inputs, [&] { return report::load_figure(arguments.description); });
     if (!arguments.common.quiet) say_notes(figure.remarks);
     const auto image = render(figure, arguments.file);
-    io::write_png(base::where_links_lead(output), image);
+    const auto png = figures::with_resolution(io::encode_png(image), figure.dots_per_inch);
+    base::write_atomically(base::where_links_lead(output),
+                           std::string_view(reinterpret_cast<const char*>(png.data()), png.size()));
     if (arguments.common.json)
         std::cout << io::json_text(nlohmann::ordered_json{{"schema", 1},
                                                           {"output", output},

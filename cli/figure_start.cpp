@@ -39,6 +39,19 @@ std::filesystem::path beside_this(const std::string& name) {
     return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name;
 }
 
+/// A program in one of the folders of PATH; empty: it is in none.
+std::filesystem::path on_the_path(const std::string& name) {
+    const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
+    std::string_view folders = path ? path : "";
+    while (!folders.empty()) {
+        const auto end = folders.find(':');
+        const auto folder = folders.substr(0, end);
+        folders = end == std::string_view::npos ? std::string_view() : folders.substr(end + 1);
+        if (auto file = std::filesystem::path(folder) / name; !folder.empty() && runs(file)) return file;
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string run_program(const std::filesystem::path& program, std::vector<std::string> words) {
@@ -59,15 +72,7 @@ std::string run_program(const std::filesystem::path& program, std::vector<std::s
 
 std::filesystem::path find_own_program(const std::string& name) {
     if (auto file = beside_this(name); runs(file)) return file;
-    const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
-    std::string_view folders = path ? path : "";
-    while (!folders.empty()) {
-        const auto end = folders.find(':');
-        const auto folder = folders.substr(0, end);
-        folders = end == std::string_view::npos ? std::string_view() : folders.substr(end + 1);
-        if (auto file = std::filesystem::path(folder) / name; !folder.empty() && runs(file)) return file;
-    }
-    return {};
+    return on_the_path(name);
 }
 
 std::filesystem::path find_figure_program() {
@@ -108,6 +113,18 @@ std::string draw_figure(const std::filesystem::path& description, const std::fil
     }
     if (fault.empty()) return {};
     return fmt::format("{}: not drawn: {}", picture.string(), fault);
+}
+
+std::filesystem::path find_svg_program() { return on_the_path("rsvg-convert"); }
+
+std::string convert_svg(const std::filesystem::path& svg, const std::filesystem::path& file) {
+    const bool pdf = file.extension() == ".pdf";
+    // Plots are laid out for 96 dots an inch; a PDF has no dots.
+    std::vector<std::string> words = {"rsvg-convert", "--format", pdf ? "pdf" : "png", "--output", file.string()};
+    if (!pdf) words.insert(words.end(), {"--dpi-x", "300", "--dpi-y", "300", "--zoom", "3.125"});
+    words.push_back(svg.string());
+    const auto fault = run_program(find_svg_program(), words);
+    return fault.empty() ? fault : fmt::format("{}: not written: {}", file.string(), fault);
 }
 
 }  // namespace mimik::cli

@@ -27,5 +27,11 @@ namespace mimik::cli {
 /// Makes a video of the pictures in a folder. Empty: done; else what went wrong. @throws as find_video_program.
 [[nodiscard]] std::string write_video(const std::filesystem::path& frames, const std::filesystem::path& video,
                                       double rate_hz);
+/// A program that writes SVG as PDF and PNG, `rsvg-convert` (package librsvg2-bin). Empty: it is not installed.
+[[nodiscard]] std::filesystem::path find_svg_program();
+
+/// Converts a plot with it, by the ending of `file`: .pdf, or .png with 300 dots an inch. Empty: done; else what went
+/// wrong. From any thread.
+[[nodiscard]] std::string convert_svg(const std::filesystem::path& svg, const std::filesystem::path& file);
 
 }  // namespace mimik::cli

@@ -324,6 +324,24 @@ void draw_scale_bar(Canvas& canvas, const Figure& figure, int x, int y, double m
     }
 }
 
+/// The numbers of a panel's markers, each beside its ball: to the side that leads away from the panel's middle.
+void draw_numbers(Canvas& canvas, const Panel& panel, const PanelCamera& camera, const Figure& figure, int left,
+                  int top) {
+    const Eigen::Matrix3d axes = view_axes(camera.view);
+    const int font = figure.font_size_px * 7 / 10;
+    for (const auto& set : panel.markers) {
+        if (!set.numbered) continue;
+        for (std::size_t k = 0; k < set.positions_mm.size(); ++k) {
+            const Vector seen = axes * (set.positions_mm[k] - camera.centre_mm) / camera.mm_per_px;
+            const double gap = set.radius_mm / camera.mm_per_px + font / 5.0;
+            const bool to_the_right = seen.x() >= 0;
+            canvas.text(left + figure.panel_width_px / 2.0 + seen.x() + (to_the_right ? gap : -gap),
+                        top + static_cast<int>(std::lround(figure.panel_height_px / 2.0 - seen.y() - 0.1 * font)),
+                        std::to_string(k + 1), font, to_the_right ? 0 : 1, ink);
+        }
+    }
+}
+
 }  // namespace
 
 io::Image render(const Figure& figure) {
@@ -347,6 +365,7 @@ io::Image render(const Figure& figure) {
             if (!panel.mesh.vertices_mm.empty())
                 canvas.place(x, y,
                              draw_panel(panel, cameras[p], figure, page.bars[p] ? page.bars[p]->range : Range{0, 1}));
+            draw_numbers(canvas, panel, cameras[p], figure, x, y);
             if (page.bars[p] && !page.shared_bar)
                 draw_bar(canvas, *page.bars[p], x + figure.panel_width_px + figure.font_size_px / 3, y,
                          figure.panel_height_px, bar_font_px(figure));

@@ -25,6 +25,8 @@ struct View {
 inline constexpr Colour landmark_colour = {36, 84, 190};
 inline constexpr Colour muscle_colour = {206, 38, 38};
 inline constexpr Colour wrinkle_colour = {230, 150, 0};
+/// Of a face without colours of its own.
+inline constexpr Colour skin = {240, 212, 192};
 
 /// Points drawn as small balls on the face.
 struct MarkerSet {
@@ -32,6 +34,7 @@ struct MarkerSet {
     Colour colour = landmark_colour;
     double radius_mm = 2.0;  ///< seen clearly where a face is 400 pixels high
     std::vector<geometry::Point> positions_mm{};
+    bool numbered = false;  ///< 1, 2, ... beside the balls, in their order
 };
 
 /// Straight arrows on the face, such as displacements of control points.
@@ -66,6 +69,8 @@ struct Panel {
     std::string caption{};  ///< UTF-8 (Latin-1 letters); wrapped to the panel's width; '\n' breaks a line
     View view{};
     std::optional<geometry::Point> centre_mm{};  ///< what the camera looks at; without: as Figure::framing says
+    bool wire_frame = false;                     ///< the edges of the faces are drawn over the surface
+    bool lit_as_skin = false;  ///< the mesh's own colours are skin without light in it: lit as plain skin is
 };
 
 /// What the middle of a panel shows. The scale is one for all panels either way.
@@ -91,6 +96,7 @@ struct Figure {
     bool legend = false;        ///< a line that names the marker and arrow sets
     /// Each pixel is the mean of supersampling^2 drawn ones, on top of the renderer's own multisampling; 1 to 4.
     int supersampling = 1;
+    int dots_per_inch = 0;               ///< how large a pixel is in print: told in the PNG; 0: not said
     std::vector<std::string> remarks{};  ///< what readers left out or took otherwise than written
 
     void check() const;  ///< throws InputError naming field, panel and value

@@ -120,6 +120,7 @@ void Figure::check() const {
     within("font_size_px", font_size_px, 6, 200);
     within("scale_bar_mm", scale_bar_mm, 0, 1e6);
     within("supersampling", supersampling, 1, 4);
+    within("dots_per_inch", dots_per_inch, 0, 10000);
     if (height_mm) within("height_mm", *height_mm, 1e-6, 1e9);
     for (std::size_t p = 0; p < panels.size(); ++p)
         check_panel(panels[p], fmt::format("panel {}{}: ", p + 1,

@@ -36,7 +36,7 @@ using geometry::Mesh;
 using geometry::Point;
 using geometry::Vector;
 
-constexpr Colour skin = {240, 212, 192};
+constexpr Colour wire = {66, 78, 104};
 constexpr Colour inside_of_skin = {150, 130, 118};
 
 /// A surface in the renderer's form. Everything is per vertex.
@@ -239,8 +239,9 @@ vtkSmartPointer<vtkActor> face_actor(const Panel& panel, const std::array<double
         data.GetPointData()->SetTCoords(coordinates);
     }
 
-    const bool plain = !textured && data.GetPointData()->GetScalars() == nullptr;
-    auto actor = make_actor(data, plain ? skin : Colour{255, 255, 255});
+    const bool coloured = data.GetPointData()->GetScalars() != nullptr;
+    const bool plain = !textured && (!coloured || (panel.lit_as_skin && !panel.scalar));
+    auto actor = make_actor(data, plain && !coloured ? skin : Colour{255, 255, 255});
     vtkProperty& look = *actor->GetProperty();
     // A photograph has light in it already and a colour map must stay readable: both are shaded more gently.
     look.SetAmbient(plain ? 0.14 : 0.35);
@@ -252,12 +253,17 @@ vtkSmartPointer<vtkActor> face_actor(const Panel& panel, const std::array<double
         look.SetPointSize(2.0F);
         if (plain) look.SetColor(unit_rgb(inside_of_skin).data());
     }
-    if (plain && !dots) {
+    if (plain && !coloured && !dots) {
         vtkNew<vtkProperty> back;
         back->DeepCopy(&look);
         back->SetColor(unit_rgb(inside_of_skin).data());
         back->SetSpecular(0);
         actor->SetBackfaceProperty(back);
+    }
+    if (panel.wire_frame && !dots) {
+        look.EdgeVisibilityOn();
+        look.SetEdgeColor(unit_rgb(wire).data());
+        look.SetLineWidth(1.0F);
     }
     if (textured) actor->SetTexture(make_texture(*panel.texture, repeats_texture(mesh)));
     return actor;

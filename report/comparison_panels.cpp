@@ -45,98 +45,6 @@ namespace {
 constexpr const char* description_file = "figure.json";
 constexpr int panel_width_px = 320, panel_height_px = 400;
 
-struct NamedControl {
-    std::string name;
-    ControlKind kind;
-    Point position_mm;
-};
-
-/// One row of the figure.
-struct Person {
-    explicit Person(std::string part) : role(std::move(part)) {}
-    std::string role;  ///< "source", "target", "average"
-    Face neutral;
-    AnimatedFace animated;
-    std::vector<NamedControl> controls;       ///< on the neutral face
-    std::vector<NamedControl> real_controls;  ///< on the real scan, frame of the neutral one
-    std::optional<Face> real;
-    std::optional<evaluation::ScoredTarget> scored;
-    ComparedPerson compared;
-};
-
-AnimatedFace animated_face(const PreparedTarget& target, const ExpressionModel& model, const ComparisonRequest& request,
-                           double magnitude) {
-    const animation::WeightedExpression weighted{&model, magnitude};
-    return animation::animate(target, std::span(&weighted, 1), request.animation);
-}
-
-/// A method that is no model of control points. Null: the request's own options make the motion.
-animation::MethodPointer field_method(const ComparisonRequest& request) {
-    auto method = animation::method_by_name(request.method_name);
-    return dynamic_cast<const animation::ModelMethod*>(method.get()) ? nullptr : method;
-}
-
-/// @throws InputError if the method does not learn from such a source.
-void check_method(const ComparisonRequest& request) {
-    const auto needs = animation::method_by_name(request.method_name)->needs();
-    if (needs == animation::SourceKind::all_but_target && request.source != "mean")
-        throw InputError(fmt::format("method '{}' learns from everybody but the target, source is '{}'; give mean",
-                                     request.method_name, request.source));
-    if (field_method(request) && needs == animation::SourceKind::one_source && request.source == "mean")
-        throw InputError(fmt::format("method '{}' learns from one source; name a subject", request.method_name));
-}
-
-/// What such a method makes of the source's expression.
-class LearnedMotion {
-public:
-    LearnedMotion(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
-                  const animation::Method& method)
-        : reader_(workspace), magnitude_(request.magnitude) {
-        const auto learner =
-            method.learner({request.expression, workspace.average(), catalogue, workspace.registrations()});
-        std::vector<animation::LessonPointer> lessons;
-        if (method.needs() != animation::SourceKind::none)
-            for (const auto& scan :
-                 modeling::source_scans(workspace, request.expression, {request.source, {request.target}}))
-                lessons.push_back(learner->study(reader_.read(scan)));
-        transfer_ = learner->learn(lessons);
-    }
-    [[nodiscard]] AnimatedFace on(const Person& person) const {
-        std::optional<modeling::Performance> own;  // with its truth
-        if (person.real) own = reader_.read(person.real->id);
-        const PreparedTarget target(person.neutral, own && own->true_neutral ? &*own->true_neutral : nullptr);
-        AnimatedFace animated;
-        animated.field = animation::field_on(*transfer_, target);
-        animated.lip_sides = transfer_->lip_sides(target);
-        for (auto& displacement : animated.field.mm) displacement *= magnitude_;
-        animated.extent = geometry::field_extent(target.surface(), animated.field.mm);
-        return animated;
-    }
-
-private:
-    evaluation::PerformanceReader reader_;
-    double magnitude_;
-    std::unique_ptr<const animation::Transfer> transfer_;
-};
-
-std::vector<Point> moved_vertices(const geometry::QuadGrid& grid, const AnimatedFace& animated) {
-    auto moved = grid.vertices_mm;
-    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] += animated.field.mm[v];
-    return moved;
-}
-
-/// Hidden subjects are no sources anyway.
-modeling::ExpressionSource source_of(const ComparisonRequest& request) { return {request.source, {request.target}}; }
-
-/// The average face as somebody who can be animated.
-Face average_person(const Workspace& workspace) {
-    const auto& average = workspace.average();
-    Face face;
-    face.grid = average.grid;
-    face.landmarks = face.snapped_landmarks = average.landmarks;
-    return face;
-}
-
 /// Middle of what is drawn of a neutral face: where all panels of that person look.
 Point centre_of(const geometry::QuadGrid& grid, geometry::BridgedVertices bridged) {
     return geometry::box_of(geometry::to_mesh(grid, bridged).vertices_mm).center();
@@ -144,7 +52,7 @@ Point centre_of(const geometry::QuadGrid& grid, geometry::BridgedVertices bridge
 
 /// `name,x,y,z,kind` of the points of some kinds: muscle and wrinkle points as the thesis shows them (Figs 5-8, 5-9);
 /// those that lie on no muscle in files of their own. @return whether there was any.
-bool write_controls(const fs::path& file, const std::vector<NamedControl>& controls,
+bool write_controls(const fs::path& file, const std::vector<ShownControl>& controls,
                     std::initializer_list<ControlKind> kinds) {
     std::string text = "name,x,y,z,kind\n";
     bool any = false;
@@ -156,18 +64,6 @@ bool write_controls(const fs::path& file, const std::vector<NamedControl>& contr
     }
     if (any) base::write_atomically(file, text);
     return any;
-}
-
-/// Distances per vertex of a mesh made from a grid: NaN, drawn in grey, where no distance can be had.
-geometry::VertexAttribute distance_attribute(const evaluation::ScoredTarget& scored,
-                                             const std::vector<Point>& vertices_mm,
-                                             const std::vector<std::uint32_t>& kept) {
-    std::vector<std::uint8_t> counts(vertices_mm.size(), 0);
-    for (const auto v : scored.vertices) counts[v] = vertices_mm[v].allFinite() ? 1 : 0;
-    const auto distances = evaluation::distances_to_surface(vertices_mm, *scored.expressive, counts);
-    geometry::VertexAttribute attribute{"distance_mm", 1, {}};
-    for (const auto v : kept) attribute.values.push_back(distances.distance_mm[v]);
-    return attribute;
 }
 
 /// A figure being made: the files of its panels lie beside its description.
@@ -189,7 +85,7 @@ public:
         panel.centre_mm = centre_mm;
         return panel;
     }
-    void add_controls(PanelDescription& panel, const std::vector<NamedControl>& controls,
+    void add_controls(PanelDescription& panel, const std::vector<ShownControl>& controls,
                       const std::string& stem) const {
         if (write_controls(file(stem + ".csv"), controls, {ControlKind::muscle, ControlKind::wrinkle}))
             panel.controls = file(stem + ".csv");
@@ -282,7 +178,7 @@ std::string magnitude_words(double magnitude) {
 
 /// Landmarks that lie on an earlier one on either person (closed lips): a spline through both has no answer, so
 /// nobody's file has them, and the files of two people go into 'mimik warp' as they are.
-std::set<std::string> coincident_landmarks(const std::vector<Person>& people) {
+std::set<std::string> coincident_landmarks(const std::vector<ShownPerson>& people) {
     std::set<std::string> names;
     for (const auto& person : people) {
         std::vector<Point> kept_mm;
@@ -307,7 +203,7 @@ geometry::Landmarks without(const geometry::Landmarks& landmarks, const std::set
 }
 
 /// Panels of one person, in the order of the thesis, then the coloured ones.
-void add_person(FigureFolder& folder, const Person& person, const geometry::Landmarks& landmarks,
+void add_person(FigureFolder& folder, const ShownPerson& person, const geometry::Landmarks& landmarks,
                 const ComparisonRequest& request, double scale_mm, bool synthetic) {
     const auto stem = [&](const char* what) { return person.role + "_" + what; };
     const Point centre_mm = centre_of(person.neutral.grid, request.bridged);
@@ -352,52 +248,7 @@ void add_person(FigureFolder& folder, const Person& person, const geometry::Land
     coloured("neutral.ply", "Neutral", person.compared.zone_nothing_mm);
 }
 
-/// The real scan's distances, of the person as animated and of doing nothing.
-void compare(Person& person, const Workspace& workspace, const evaluation::ActiveZone& zone) {
-    if (!person.real) return;
-    const auto neutral = geometry::face_surface(person.neutral.grid, person.neutral.landmarks);
-    person.scored = evaluation::scored_target(neutral, person.real->grid, person.real->neutral_from_scan,
-                                              evaluation::carry_zone(zone, workspace.average(), person.neutral));
-    const auto refuse = [&](const char* what) {
-        throw InputError(fmt::format("{} does not lie on {}{}; 'mimik preprocess --sheets' shows how it was aligned",
-                                     person.real->id.name(), person.neutral.id.name(), what));
-    };
-    if (person.scored->vertices.empty()) refuse(": nothing of the neutral face sees it");
-    if (person.scored->zone_size() == 0) refuse(" where the expression is: nothing of its zone sees it");
-    const auto still = geometry::DisplacementField::still(neutral.size());
-    const auto animated = evaluation::distances_to_real_scan({*person.scored, neutral, person.animated.field});
-    const auto nothing = evaluation::distances_to_real_scan({*person.scored, neutral, still});
-    const auto measured =
-        std::count_if(neutral.measured.begin(), neutral.measured.end(), [](auto seen) { return seen != 0; });
-    person.compared = {person.neutral.id.subject,
-                       animated.zone_mm,
-                       nothing.zone_mm,
-                       animated.face_mm.value_or(0),
-                       nothing.face_mm.value_or(0),
-                       static_cast<std::size_t>(measured) - person.scored->vertices.size()};
-}
-
-void add_remarks(std::vector<std::string>& remarks, const std::vector<std::string>& more) {
-    for (const auto& remark : more)
-        if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
-}
-
-void add_left_out(ComparisonFigure& figure, const ExpressionModel& model) {
-    std::vector<std::string> remarks;
-    for (const auto& reason : model.left_out) remarks.push_back(fmt::format("{}: {}", model.expression.name(), reason));
-    add_remarks(figure.remarks, remarks);
-}
-
-void add_unusable(ComparisonFigure& figure, const ExpressionModel& model) {
-    for (const auto& scan : model.unusable_scans)
-        figure.failures.push_back(fmt::format("{}: left out of the mean: {}", model.expression.name(), scan));
-}
-
 }  // namespace
-
-std::optional<double> ComparedPerson::explained() const {
-    return zone_nothing_mm > 0 ? std::optional(1 - zone_mm / zone_nothing_mm) : std::nullopt;
-}
 
 std::string comparison_name(const ComparisonRequest& request) {
     const double m = request.magnitude;
@@ -413,106 +264,16 @@ std::string series_name(const ComparisonRequest& request, std::span<const facs::
                        request.method_name, variant_suffix(request));
 }
 
-ComparedScans compared_scans(const Workspace& workspace, const FacsCatalogue& catalogue,
-                             const ComparisonRequest& request) {
-    workspace.refuse_hidden(request.target);
-    check_method(request);
-    modeling::check_source(workspace, source_of(request), request.model);
-    (void)workspace.neutral(request.target);
-    (void)catalogue.units(request.expression);
-    ComparedScans scans;
-    const auto sources = modeling::source_scans(workspace, request.expression, source_of(request));
-    if (request.source != "mean") scans.source = sources.front();
-    scans.target = workspace.scan_of(request.target, request.expression);
-    return scans;
-}
-
-namespace {
-
-Person person_with_scan(const char* role, const Workspace& workspace, const std::string& subject,
-                        const database::ScanId& scan) {
-    Person person(role);
-    person.neutral = workspace.face(workspace.neutral(subject));
-    person.real = workspace.face(scan);
-    return person;
-}
-
-/// The source with its own scan, and what the model says of it.
-Person source_person(const Workspace& workspace, const FacsCatalogue& catalogue, const ComparisonRequest& request,
-                     const database::ScanId& scan, ExpressionModel& model, std::vector<std::string>& remarks) {
-    auto source = person_with_scan("source", workspace, request.source, scan);
-    std::vector<modeling::FollowedPoint> followed;
-    model = modeling::measure_expression(catalogue, request.expression, workspace.average(), source.neutral,
-                                         *source.real, request.model, &followed, workspace.registrations());
-    for (const auto& point : followed) {
-        source.controls.push_back({point.name, point.kind, point.neutral_mm});
-        source.real_controls.push_back({point.name, point.kind, source.real->neutral_from_scan * point.expressive_mm});
-    }
-    if (!base::equal_ignoring_case(scan.code, request.expression.code()))
-        remarks.push_back(fmt::format("{} was taken from one side of {}", request.expression.code(), scan.name()));
-    return source;
-}
-
-/// The average face in the place of a source.
-Person average_in_place_of_source(const Workspace& workspace, const FacsCatalogue& catalogue,
-                                  const ComparisonRequest& request, ExpressionModel& model, ComparisonFigure& figure) {
-    model = modeling::model_from_workspace(workspace, catalogue, request.expression, source_of(request), request.model);
-    add_unusable(figure, model);
-    Person average("average");
-    average.neutral = average_person(workspace);
-    for (const auto& point : model.points) average.controls.push_back({point.name, point.kind, point.position_mm});
-    return average;
-}
-
-Person target_person(const Workspace& workspace, const ComparisonRequest& request,
-                     const std::optional<database::ScanId>& scan, std::vector<std::string>& remarks) {
-    Person target("target");
-    target.neutral = workspace.face(workspace.neutral(request.target));
-    if (scan)
-        target.real = workspace.face(*scan);
-    else
-        remarks.push_back(
-            fmt::format("subject '{}' has no scan of expression '{}', so there is nothing to compare with",
-                        request.target, request.expression.code()));
-    return target;
-}
-
-}  // namespace
-
 ComparisonFigure write_comparison_panels(const Workspace& workspace, const FacsCatalogue& catalogue,
                                          const ComparisonRequest& request, const fs::path& folder) {
-    const auto scans = compared_scans(workspace, catalogue, request);
+    auto compared = compare_people(workspace, catalogue, request);
+    const auto& people = compared.people;
     ComparisonFigure figure;
-    const auto zone = evaluation::shipped_active_zone(request.expression, workspace.average());
-
-    std::vector<Person> people;
-    ExpressionModel model;
-    std::optional<LearnedMotion> motion;
-    if (const auto method = field_method(request)) {
-        motion.emplace(workspace, catalogue, request, *method);
-        if (scans.source) people.push_back(person_with_scan("source", workspace, request.source, *scans.source));
-    } else if (scans.source) {
-        people.push_back(source_person(workspace, catalogue, request, *scans.source, model, figure.remarks));
-    } else {
-        people.push_back(average_in_place_of_source(workspace, catalogue, request, model, figure));
-    }
-    if (request.target != request.source)
-        people.push_back(target_person(workspace, request, scans.target, figure.remarks));
-
-    for (auto& person : people) {
-        person.animated = motion ? motion->on(person)
-                                 : animated_face(PreparedTarget(person.neutral), model, request, request.magnitude);
-        if (person.role == "target")
-            for (const auto& point : person.animated.points)
-                person.controls.push_back({point.name, point.kind, point.position_mm});
-        add_remarks(figure.remarks, person.animated.remarks);
-        compare(person, workspace, zone);
-        if (!person.scored) continue;
-        figure.scale_mm = std::max(figure.scale_mm, geometry::quantile(person.scored->nothing_mm, 0.99));
-        figure.people.push_back(person.compared);
-    }
-    add_left_out(figure, model);
-
+    figure.scale_mm = compared.scale_mm;
+    figure.remarks = std::move(compared.remarks);
+    figure.failures = std::move(compared.failures);
+    for (const auto& person : people)
+        if (person.scored) figure.people.push_back(person.compared);
     FigureFolder out(folder, request);
     const auto coincident = coincident_landmarks(people);
     for (const auto& person : people)
@@ -576,8 +337,8 @@ ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCa
         const auto model =
             modeling::model_from_workspace(workspace, catalogue, expression, source_of(request), request.model);
         words.push_back(expression_words(catalogue, expression));
-        add_left_out(figure, model);
-        add_unusable(figure, model);
+        add_left_out(figure.remarks, model);
+        add_unusable(figure.failures, model);
         for (const double magnitude : magnitudes) {
             const auto animated = animated_face(target, model, request, magnitude);
             add_remarks(figure.remarks, animated.remarks);

@@ -1,40 +1,15 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "animation/animate.h"
 #include "facs/facs_catalogue.h"
-#include "geometry/quad_grid.h"
 #include "preprocessing/workspace.h"
+#include "report/compared_people.h"
 
 namespace mimik::report {
-
-/// What a figure shows: an expression of a source on a target.
-struct ComparisonRequest {
-    std::string source = "mean";  ///< subject, or "mean" (of all others)
-    std::string target;
-    facs::Expression expression;
-    std::string method_name = "default";  ///< any of animation::known_methods()
-    modeling::ModelOptions model;         ///< of a method by control points, with its `animation`; of others not used
-    animation::AnimationOptions animation;
-    double magnitude = 1.0;
-    std::string view = "front";
-    geometry::BridgedVertices bridged = geometry::BridgedVertices::leave_out;
-};
-
-/// How near an animated face comes to the real expressive scan of the same person, in the AU's zone as the catalogue
-/// draws it. The scan was brought onto the neutral one by its stable region: a truth, where there is one, is not used.
-struct ComparedPerson {
-    std::string subject;
-    double zone_mm = 0, zone_nothing_mm = 0;  ///< mean distance to the real scan in the zone; of doing nothing
-    double face_mm = 0, face_nothing_mm = 0;  ///< the same over the whole face
-    std::size_t border_hits = 0;  ///< measured vertices whose nearest point is on the scan's border: left out of all
-    [[nodiscard]] std::optional<double> explained() const;  ///< 1 - distance / distance of doing nothing
-};
 
 struct ComparisonFigure {
     std::filesystem::path description;  ///< figure description (docs/figures.md), beside the files that it names
@@ -51,16 +26,6 @@ struct ComparisonFigure {
 [[nodiscard]] std::string comparison_name(const ComparisonRequest& request);
 /// "AU4_AU12_series_mean_on_bs007_default".
 [[nodiscard]] std::string series_name(const ComparisonRequest& request, std::span<const facs::Expression> expressions);
-
-/// Everything that can be found out about a request before any work. Gives the scan that the expression is taken from
-/// (none for a mean) and the target's real one (none if the target was not scanned with it).
-/// @throws InputError if a subject is missing or must not be shown, the source (of a mean: everybody) lacks the
-/// expression, or the model has no mean.
-struct ComparedScans {
-    std::optional<database::ScanId> source, target;
-};
-[[nodiscard]] ComparedScans compared_scans(const preprocessing::Workspace& workspace,
-                                           const facs::FacsCatalogue& catalogue, const ComparisonRequest& request);
 
 /// Figs 6-1 to 6-3 and 6-6 of the thesis: one row per person (source, target), each with the neutral face and its
 /// control points, the animated face, the real expressive scan, and the distance to that scan in colour, of the

@@ -144,6 +144,7 @@ MarkerFile marker_of(const Json& value, const std::string& place, const fs::path
     keys.take("name", marker.name);
     keys.take_parsed("colour", marker.colour, figures::parse_colour);
     keys.take("radius_mm", marker.radius_mm);
+    keys.take("numbered", marker.numbered);
     keys.finish();
     return marker;
 }
@@ -174,6 +175,8 @@ PanelDescription panel_of(const Json& value, const std::string& place, const fs:
         const auto xyz = numbers<3>(list, at);
         return Point(xyz[0], xyz[1], xyz[2]);
     });
+    keys.take("wire_frame", panel.wire_frame);
+    keys.take("lit_as_skin", panel.lit_as_skin);
     keys.finish();
     return panel;
 }
@@ -251,6 +254,8 @@ Panel load_panel(const PanelDescription& description, std::vector<std::string>& 
     panel.view = description.view;
     panel.scalar = description.scalar;
     panel.centre_mm = description.centre_mm;
+    panel.wire_frame = description.wire_frame;
+    panel.lit_as_skin = description.lit_as_skin;
     if (description.mesh.empty()) return panel;
 
     database::refuse_hidden_file(description.mesh);
@@ -285,8 +290,8 @@ Panel load_panel(const PanelDescription& description, std::vector<std::string>& 
         panel.arrows.push_back(decode_arrows(base::read_text(description.arrows, most_table_bytes),
                                              description.arrows.string(), description.unit));
     for (const auto& marker : description.markers)
-        panel.markers.push_back(
-            {marker.name, marker.colour, marker.radius_mm, positions(marker.file, panel.mesh, description.unit)});
+        panel.markers.push_back({marker.name, marker.colour, marker.radius_mm,
+                                 positions(marker.file, panel.mesh, description.unit), marker.numbered});
     return panel;
 }
 
@@ -343,6 +348,7 @@ FigureDescription decode_figure_description(const std::string& text, const std::
     keys.take("scale_bar_mm", page.scale_bar_mm);
     keys.take("legend", page.legend);
     keys.take("supersampling", page.supersampling);
+    keys.take("dots_per_inch", page.dots_per_inch);
     View view;
     keys.take("view", view, view_of);
     const bool has_panels = keys.take("panels", description.panels, [&](const Json& list, const std::string& place) {
@@ -403,12 +409,15 @@ Ordered json_of(const PanelDescription& panel, const fs::path& folder) {
         put(one, "name", marker.name, std::string());
         one["colour"] = colour_text(marker.colour);
         one["radius_mm"] = marker.radius_mm;
+        put(one, "numbered", marker.numbered, false);
         json["markers"].push_back(std::move(one));
     }
     if (panel.scalar) json["scalar"] = json_of(*panel.scalar);
     put(json, "caption", panel.caption, std::string());
     put_view(json, panel.view);
     if (panel.centre_mm) json["centre_mm"] = {panel.centre_mm->x(), panel.centre_mm->y(), panel.centre_mm->z()};
+    put(json, "wire_frame", panel.wire_frame, false);
+    put(json, "lit_as_skin", panel.lit_as_skin, false);
     return json;
 }
 
@@ -429,6 +438,7 @@ std::string encode_figure_description(const FigureDescription& description, cons
     put(json, "scale_bar_mm", page.scale_bar_mm, usual.scale_bar_mm);
     put(json, "legend", page.legend, usual.legend);
     put(json, "supersampling", page.supersampling, usual.supersampling);
+    put(json, "dots_per_inch", page.dots_per_inch, usual.dots_per_inch);
     json["panels"] = Ordered::array();
     for (const auto& panel : description.panels) json["panels"].push_back(json_of(panel, folder));
     return io::json_text(json);

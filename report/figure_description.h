@@ -17,6 +17,7 @@ struct MarkerFile {
     std::string name{};            ///< for the legend
     figures::Colour colour = figures::landmark_colour;
     double radius_mm = figures::MarkerSet{}.radius_mm;
+    bool numbered = false;
 };
 
 /// A panel as files hold it.
@@ -33,6 +34,8 @@ struct PanelDescription {
     std::string caption{};
     figures::View view{};
     std::optional<geometry::Point> centre_mm{};
+    bool wire_frame = false;
+    bool lit_as_skin = false;
 };
 
 struct FigureDescription {

@@ -1,0 +1,172 @@
+#include "report/drawn_face.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "animation/face_export.h"
+#include "base/errors.h"
+#include "geometry/box.h"
+#include "io/image.h"
+
+namespace mimik::report {
+
+using figures::Colour;
+using geometry::Mesh;
+using geometry::Point;
+using preprocessing::Face;
+
+namespace {
+
+constexpr Colour filled_colour = {236, 228, 222};  // skin's own lightness with less of its colour
+constexpr Colour marked_colour = {150, 190, 120};  // as on quality sheets
+constexpr Colour mouth_colour = {74, 44, 42};
+
+geometry::BridgedVertices bridged_of(HoleDrawing holes) {
+    return holes == HoleDrawing::gap ? geometry::BridgedVertices::leave_out : geometry::BridgedVertices::keep;
+}
+
+void colour_by_origin(Mesh& mesh, const geometry::QuadGrid& grid, HoleDrawing holes,
+                      const std::vector<std::uint32_t>& kept) {
+    mesh.colours.clear();
+    mesh.colours.reserve(kept.size());
+    for (const auto v : kept)
+        mesh.colours.push_back(grid.measured(v)             ? figures::skin
+                               : holes == HoleDrawing::mark ? marked_colour
+                                                            : filled_colour);
+}
+
+/// The quads that a motion tears, each with corners of its own so that its colour stays its own.
+void add_inside_of_mouth(Mesh& mesh, const animation::AnimatedFace& animated, const Face& neutral,
+                         const std::vector<Point>& moved_mm) {
+    const auto all = geometry::quads(neutral.grid);
+    std::vector<std::uint32_t> corners;
+    for (std::size_t f = 0; f < all.size(); ++f) {
+        corners.assign(all[f].begin(), all[f].end());
+        if (!animation::torn(animated, animated.field.mm, corners)) continue;
+        std::vector<std::uint32_t> own;
+        for (const auto v : corners) {
+            own.push_back(static_cast<std::uint32_t>(mesh.vertices_mm.size()));
+            mesh.vertices_mm.push_back(moved_mm[v]);
+            mesh.colours.push_back(mouth_colour);
+            if (!mesh.texture_coordinates.empty())
+                mesh.texture_coordinates.push_back(neutral.grid.texture_coordinates[v]);
+            for (auto& attribute : mesh.attributes)
+                attribute.values.insert(attribute.values.end(), static_cast<std::size_t>(attribute.components),
+                                        std::numeric_limits<double>::quiet_NaN());
+        }
+        mesh.faces.add(own);
+    }
+}
+
+}  // namespace
+
+Mesh drawn_surface(const geometry::QuadGrid& grid, HoleDrawing holes, const geometry::Transform& drawn_from_grid,
+                   std::vector<std::uint32_t>* kept) {
+    std::vector<std::uint32_t> own;
+    auto mesh = geometry::to_mesh(grid, bridged_of(holes), &own);
+    for (auto& p : mesh.vertices_mm) p = drawn_from_grid * p;
+    colour_by_origin(mesh, grid, holes, own);
+    if (kept) *kept = std::move(own);
+    return mesh;
+}
+
+Mesh drawn_animation(const animation::AnimatedFace& animated, const Face& neutral, HoleDrawing holes,
+                     std::vector<std::uint32_t>* kept) {
+    std::vector<std::uint32_t> own;
+    auto mesh = animation::to_mesh(animated, neutral, {.bridged = bridged_of(holes)}, &own);
+    colour_by_origin(mesh, neutral.grid, holes, own);
+    const bool may_tear = !animated.lip_sides.empty() || !animated.lid_sheets.empty();
+    if (may_tear && holes != HoleDrawing::gap)
+        add_inside_of_mouth(mesh, animated, neutral, moved_vertices(neutral.grid, animated));
+    if (kept) *kept = std::move(own);
+    return mesh;
+}
+
+Point middle_of(const Face& neutral) {
+    return geometry::box_of(geometry::to_mesh(neutral.grid, geometry::BridgedVertices::keep).vertices_mm).center();
+}
+
+figures::Figure page_of(int columns, const std::string& title) {
+    figures::Figure page;
+    page.title = title;
+    page.columns = columns;
+    page.dots_per_inch = 300;
+    constexpr int page_px = 1760;  // 15 cm, the width of a page's text
+    page.panel_width_px = std::min(620, page_px / std::max(1, columns));
+    page.panel_height_px = page.panel_width_px * 6 / 5;
+    page.font_size_px = columns <= 3 ? 30 : columns <= 4 ? 26 : 22;
+    page.scale_bar_mm = 50;
+    page.legend = true;
+    return page;
+}
+
+void letter_panels(figures::Figure& page) {
+    char letter = 'a';
+    for (auto& panel : page.panels) {
+        if (panel.mesh.vertices_mm.empty() && panel.caption.empty()) continue;
+        panel.caption = fmt::format("({}) {}", letter, panel.caption);
+        if (letter < 'z') ++letter;
+    }
+}
+
+figures::Panel face_panel(Mesh mesh, const Point& centre_mm, std::string caption) {
+    figures::Panel panel;
+    panel.lit_as_skin = true;
+    panel.mesh = std::move(mesh);
+    panel.centre_mm = centre_mm;
+    panel.caption = std::move(caption);
+    return panel;
+}
+
+figures::Panel neutral_panel(const ShownPerson& person, HoleDrawing holes, std::string caption) {
+    return face_panel(drawn_surface(person.neutral.grid, holes), middle_of(person.neutral), std::move(caption));
+}
+
+figures::Panel animated_panel(const ShownPerson& person, HoleDrawing holes, std::string caption) {
+    return face_panel(drawn_animation(person.animated, person.neutral, holes), middle_of(person.neutral),
+                      std::move(caption));
+}
+
+figures::Panel real_panel(const ShownPerson& person, HoleDrawing holes, std::string caption) {
+    figures::Panel panel;
+    if (!person.real) {
+        panel.caption = person.neutral.id.subject + " was not scanned with it";
+        return panel;
+    }
+    return face_panel(drawn_surface(person.real->grid, holes, person.real->neutral_from_scan),
+                      middle_of(person.neutral), std::move(caption));
+}
+
+std::string add_photograph(figures::Panel& panel, const Face& face) {
+    if (face.texture_file.empty() || face.grid.texture_coordinates.empty())
+        return face.id.name() + " has no photograph: it is shown plain";
+    try {
+        panel.texture = io::read_image(face.texture_file);
+    } catch (const InputError& e) {
+        return fmt::format("{} is shown plain: {}", face.id.name(), e.what());
+    }
+    return {};
+}
+
+figures::MarkerSet landmark_markers(const geometry::Landmarks& landmarks) {
+    figures::MarkerSet set{.name = "landmarks"};
+    for (const auto& mark : landmarks.all()) set.positions_mm.push_back(mark.position_mm);
+    return set;
+}
+
+std::vector<figures::MarkerSet> control_markers(const std::vector<ShownControl>& controls) {
+    figures::MarkerSet muscles{.name = "muscle control points", .colour = figures::muscle_colour};
+    figures::MarkerSet wrinkles{.name = "wrinkle control points", .colour = figures::wrinkle_colour};
+    for (const auto& control : controls) {
+        if (control.kind == facs::ControlKind::muscle) muscles.positions_mm.push_back(control.position_mm);
+        if (control.kind == facs::ControlKind::wrinkle) wrinkles.positions_mm.push_back(control.position_mm);
+    }
+    std::vector<figures::MarkerSet> sets;
+    for (auto* set : {&muscles, &wrinkles})
+        if (!set->positions_mm.empty()) sets.push_back(std::move(*set));
+    return sets;
+}
+
+}  // namespace mimik::report
