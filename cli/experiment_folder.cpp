@@ -1,6 +1,7 @@
 #include "cli/experiment_folder.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 #include <fmt/format.h>
@@ -17,6 +18,8 @@
 #include "base/version.h"
 #include "cli/expression_names.h"
 #include "cli/libraries.h"
+#include "cli/per_vertex_files.h"
+#include "cli/shard_files.h"
 #include "database/truth.h"
 #include "io/json_values.h"
 #include "modeling/average_fingerprint.h"
@@ -28,17 +31,23 @@ namespace fs = std::filesystem;
 using evaluation::ExperimentFile;
 using evaluation::SubjectChoice;
 
-/// Those that are there of the tables; the others, there or not.
+/// What a run writes, in a fixed order; other files in the folder are somebody else's.
+constexpr std::array result_names = {"experiment.json",
+                                     "rows.csv",
+                                     "rows.sqlite",
+                                     "scores.json",
+                                     "scores.csv",
+                                     "summary.md",
+                                     "statistics/differences.csv",
+                                     "statistics/methods.csv",
+                                     "tables/error_mm.tex",
+                                     "tables/explained.tex",
+                                     "tables/intervals.tex"};
+
 std::vector<fs::path> results_in(const fs::path& root) {
     std::vector<fs::path> files;
-    for (const auto* name : {"experiment.json", "rows.csv", "rows.sqlite", "scores.json", "scores.csv", "summary.md"})
-        files.push_back(root / name);
-    std::error_code none;
-    std::vector<fs::path> tables;
-    for (const auto* folder : {"statistics", "tables"})
-        for (const auto& entry : fs::directory_iterator(root / folder, none)) tables.push_back(entry.path());
-    std::sort(tables.begin(), tables.end());
-    files.insert(files.end(), tables.begin(), tables.end());
+    for (const auto* name : result_names) files.push_back(root / name);
+    for (auto& file : per_vertex_files(root)) files.push_back(std::move(file));
     return files;
 }
 
@@ -79,16 +88,21 @@ bool plays_a_part(const database::ScanId& id, const evaluation::ExperimentPlan& 
     });
 }
 
-/// Of every face that the experiment may read, and of what belongs to them.
-nlohmann::ordered_json inputs_of(const evaluation::PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
-                                 const evaluation::ExperimentPlan& plan) {
-    const auto& workspace = reader.workspace();
+std::vector<fs::path> face_files(const preprocessing::Workspace& workspace, const evaluation::ExperimentPlan& plan) {
     std::vector<fs::path> files;
     for (const auto& id : workspace.scans())
         if (!workspace.hidden(id.subject) && plays_a_part(id, plan))
             for (const auto* ending : {".ply", ".json"}) files.emplace_back(workspace.stem(id).string() + ending);
+    return files;
+}
+
+/// Of every face that the experiment may read, and of what belongs to them.
+nlohmann::ordered_json inputs_of(const evaluation::PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
+                                 const evaluation::ExperimentPlan& plan, const InputDigests& known) {
+    const auto& workspace = reader.workspace();
+    const auto files = face_files(workspace, plan);
     std::vector<std::string> digests(files.size());
-    base::parallel_for_each(files.size(), [&](std::size_t k) { digests[k] = base::digest_of_file(files[k]).text(); });
+    base::parallel_for_each(files.size(), [&](std::size_t k) { digests[k] = known.digest(files[k]); });
     base::ContentHash faces;
     for (std::size_t k = 0; k < files.size(); ++k) faces.add(files[k].filename().string() + " " + digests[k] + "\n");
     const auto truth = workspace.database_root() / "truth" / "truth.json";
@@ -134,16 +148,20 @@ nlohmann::ordered_json configuration_of(const ExperimentFile& file, const evalua
     document["alignment"] = evaluation::to_string(plan.alignment);
     document["resamples"] = file.resamples;
     document["confidence"] = file.confidence;
+    auto& per_vertex = document["per_vertex"] = nlohmann::ordered_json::array();
+    for (const auto& choice : file.per_vertex) per_vertex.push_back(choice.text());
     return document;
 }
 
 std::string identity_of(const ExperimentFile& file, const evaluation::PerformanceReader& reader,
-                        const facs::FacsCatalogue& catalogue, const evaluation::ExperimentPlan& plan) {
-    nlohmann::ordered_json document = {{"schema", 1}, {"mimik", base::version()}, {"compiler", MIMIK_COMPILER}};
+                        const facs::FacsCatalogue& catalogue, const evaluation::ExperimentPlan& plan,
+                        const InputDigests& known) {
+    nlohmann::ordered_json document = {
+        {"schema", 1}, {"mimik", base::version()}, {"commit", commit()}, {"compiler", MIMIK_COMPILER}};
     auto& versions = document["libraries"] = nlohmann::ordered_json::object();
     for (const auto& [name, version] : libraries()) versions[name] = version;
     document["experiment"] = configuration_of(file, plan);
-    document["inputs"] = inputs_of(reader, catalogue, plan);
+    document["inputs"] = inputs_of(reader, catalogue, plan, known);
     if (const auto truth = reader.truth_origin())
         document["truth"] = {{"seed", truth->seed},           {"face_model", truth->face_model},
                              {"subjects", truth->subjects},   {"expressions", truth->expressions},
@@ -196,7 +214,10 @@ void ExperimentFolder::clear() const {
     }
     std::error_code none;
     for (const auto& file : results_in(root_)) fs::remove(file, none);
+    for (const auto& file : files_of_shards(root_)) fs::remove(file, none);
     fs::remove(provenance(), none);
+    for (const auto* folder : {"statistics", "tables", "per_vertex", "shards"})
+        fs::remove(root_ / folder, none);  // where empty
 }
 
 void ExperimentFolder::seal() const {
@@ -226,8 +247,12 @@ std::vector<std::string> ExperimentFolder::damage() const {
     return damage;
 }
 
+InputDigests digests_of_faces(const preprocessing::Workspace& workspace, const evaluation::ExperimentPlan& plan) {
+    return InputDigests::of(face_files(workspace, plan));
+}
+
 PlannedExperiment planned(const ExperimentFile& file, const evaluation::PerformanceReader& reader,
-                          const facs::FacsCatalogue& catalogue) {
+                          const facs::FacsCatalogue& catalogue, const InputDigests& known) {
     const auto& workspace = reader.workspace();
     auto options = file.options();
     options.expressions = at(file, "expressions",
@@ -242,7 +267,8 @@ PlannedExperiment planned(const ExperimentFile& file, const evaluation::Performa
     PlannedExperiment experiment;
     experiment.plan =
         at(file, "", [&] { return evaluation::plan_experiment(workspace, catalogue, options, reader.has_truth()); });
-    experiment.identity = identity_of(file, reader, catalogue, experiment.plan);
+    check_per_vertex(file, experiment.plan);
+    experiment.identity = identity_of(file, reader, catalogue, experiment.plan, known);
     return experiment;
 }
 

@@ -9,4 +9,10 @@ const std::vector<std::pair<std::string, std::string>>& libraries() {
     return all;
 }
 
+const char* commit() {
+    return
+#include "cli/commit.inc"
+        ;
+}
+
 }  // namespace mimik::cli

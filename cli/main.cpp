@@ -7,6 +7,9 @@
 #include "cli/performance_commands.h"
 #include "cli/terminal.h"
 
+namespace mimik::cli {
+void add_merge_command(CLI::App& app, int& exit_code);
+}
 int main(int argc, char** argv) {
     mimik::cli::prepare_standard_streams();
     CLI::App app{"Mimik puts expressions on 3D face scans and measures how true they are.", "mimik"};
@@ -26,6 +29,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_model_command(app, exit_code);
     mimik::cli::add_evaluate_command(app, exit_code);
     mimik::cli::add_run_command(app, exit_code);
+    mimik::cli::add_merge_command(app, exit_code);
     mimik::cli::add_verify_command(app, exit_code);
     mimik::cli::add_compare_command(app, exit_code);
     mimik::cli::add_tune_command(app, exit_code);

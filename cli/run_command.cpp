@@ -21,6 +21,8 @@
 #include "cli/error_report.h"
 #include "cli/experiment_folder.h"
 #include "cli/notes.h"
+#include "cli/per_vertex_files.h"
+#include "cli/run_steps.h"
 #include "database/known_databases.h"
 #include "database/scan_database.h"
 #include "evaluation/case_store.h"
@@ -40,14 +42,10 @@ namespace mimik::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using Arguments = RunArguments;
 
-struct Arguments {
-    Common common;
-    std::string file, output, database, workspace;
-    bool dry_run = false, anew = false;
-};
+}  // namespace
 
-/// What the command line says wins over the file.
 evaluation::ExperimentFile experiment_of(const Arguments& arguments) {
     auto file = evaluation::read_experiment_file(arguments.file);
     if (!arguments.database.empty()) {
@@ -63,6 +61,8 @@ evaluation::ExperimentFile experiment_of(const Arguments& arguments) {
                                      arguments.file));
     return file;
 }
+
+namespace {
 
 /// The expressions of the file and, of emotions, their AUs: zones are made of those, too.
 std::vector<facs::Expression> scans_needed(const evaluation::ExperimentFile& file,
@@ -83,7 +83,8 @@ std::vector<facs::Expression> scans_needed(const evaluation::ExperimentFile& fil
     return needed;
 }
 
-/// What was left to do of the database's scans. @return scans and subjects that could not be used, with the reason
+}  // namespace
+
 std::vector<std::string> preprocess(const Arguments& arguments, const evaluation::ExperimentFile& file,
                                     const facs::FacsCatalogue& catalogue, const fs::path& workspace) {
     refuse_workspace(file.database);
@@ -119,6 +120,8 @@ std::vector<std::string> preprocess(const Arguments& arguments, const evaluation
     return failures;
 }
 
+namespace {
+
 /// After each expression what each method explains of it, as far as it is known.
 void say_expression(const std::string& code, const evaluation::ScoreTable& table,
                     const evaluation::ExperimentPlan& plan) {
@@ -134,6 +137,8 @@ void say_expression(const std::string& code, const evaluation::ScoreTable& table
         }
     std::cerr << line << "\n";
 }
+
+}  // namespace
 
 std::string provenance(const Arguments& arguments, const evaluation::ExperimentFile& file, const fs::path& workspace,
                        double seconds) {
@@ -155,6 +160,8 @@ std::string provenance(const Arguments& arguments, const evaluation::ExperimentF
            "\n";
 }
 
+namespace {
+
 /// What chance could have made of the differences; empty where no two methods have a case in common.
 std::string write_statistics(const ExperimentFolder& folder, const evaluation::CaseStore& store,
                              const evaluation::ExperimentFile& file) {
@@ -172,6 +179,8 @@ std::string write_statistics(const ExperimentFolder& folder, const evaluation::C
     const auto whose = report::to_markdown(dependences);
     return report::to_markdown(comparison, options) + (whose.empty() ? "" : "\n" + whose);
 }
+
+}  // namespace
 
 void write_results(const ExperimentFolder& folder, const evaluation::CaseStore& store,
                    const evaluation::ExperimentFile& file, const evaluation::ExperimentReport& report) {
@@ -196,6 +205,8 @@ int say_result(const Arguments& arguments, const ExperimentFolder& folder) {
         io::parse_json(base::read_text(folder.root() / "scores.json", io::most_json_bytes), "scores.json");
     return scores.at("failures").empty() ? exit_done : exit_done_with_failures;
 }
+
+namespace {
 
 int say_plan(const Arguments& arguments, const evaluation::ExperimentPlan& plan) {
     const auto estimate = evaluation::estimate(plan);
@@ -228,6 +239,8 @@ evaluation::ExperimentReport run_units(const Arguments& arguments, const evaluat
 }
 
 int run(const Arguments& arguments) {
+    if (arguments.only_preprocess) return run_only_preprocess(arguments);
+    if (!arguments.shard.empty()) return run_shard(arguments);
     const auto start = std::chrono::steady_clock::now();
     const auto file = experiment_of(arguments);
     const ExperimentFolder folder(arguments.output);
@@ -263,6 +276,7 @@ int run(const Arguments& arguments) {
             report.failures.insert(report.failures.begin(), unusable.begin(), unusable.end());
             if (!arguments.common.quiet) say_notes(report.remarks);
             write_results(folder, store, file, report);
+            write_per_vertex(folder.root(), file, reader, catalogue, experiment.plan);
         }
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         base::write_atomically(folder.provenance(), provenance(arguments, file, place, seconds));
@@ -292,9 +306,21 @@ void add_run_command(CLI::App& app, int& exit_code) {
                                          "Database to preprocess and use, whatever the file says");
     command->add_option("--workspace", arguments->workspace, "Workspace to use, whatever the file says")
         ->excludes(database);
-    command->add_flag("--anew", arguments->anew,
-                      "Throw away what an earlier run left in the folder, but its workspace");
-    command->add_flag("--dry-run", arguments->dry_run, "Check the file and say time and units, do nothing");
+    auto* anew = command->add_flag("--anew", arguments->anew,
+                                   "Throw away what an earlier run left in the folder, but its workspace");
+    auto* dry_run =
+        command->add_flag("--dry-run", arguments->dry_run, "Check the file and say time and units, do nothing");
+    auto* shard = command
+                      ->add_option("--shard", arguments->shard,
+                                   "Do the i-th of n parts alone, such as 3/20; 'mimik merge' makes one of all")
+                      ->excludes(anew)
+                      ->excludes(dry_run);
+    command
+        ->add_flag("--only-preprocess", arguments->only_preprocess,
+                   "Do what all shards have in common, once before them, and stop")
+        ->excludes(shard)
+        ->excludes(anew)
+        ->excludes(dry_run);
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

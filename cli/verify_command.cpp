@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,18 +57,20 @@ std::vector<Sampled> sample(const evaluation::ExperimentPlan& plan, int count, s
     return chosen;
 }
 
-/// The rows of one unit as rows.csv has them.
-std::vector<std::string> stored_rows(const std::filesystem::path& file, const std::string& expression,
-                                     const std::string& target) {
+using UnitKey = std::pair<std::string, std::string>;  // code of the expression, target
+
+/// The rows of the units as rows.csv has them; the file is read once.
+std::map<UnitKey, std::vector<std::string>> stored_rows(const std::filesystem::path& file,
+                                                        const std::set<UnitKey>& units) {
     std::ifstream in(file, std::ios::binary);
-    std::vector<std::string> rows;
+    std::map<UnitKey, std::vector<std::string>> rows;
     std::string line;
     if (!std::getline(in, line) || line != evaluation::case_row_header())
         throw InputError(fmt::format("{}: is no table of rows; run the experiment again", file.string()));
     while (std::getline(in, line)) {
         const auto row = evaluation::decode_case_row(line);
         if (!row) throw InputError(fmt::format("{}: {} is no row", file.string(), base::in_quotes(line)));
-        if (row->key.expression == expression && row->key.target == target) rows.push_back(line);
+        if (const UnitKey key{row->key.expression, row->key.target}; units.contains(key)) rows[key].push_back(line);
     }
     return rows;
 }
@@ -116,12 +120,16 @@ int run(const Arguments& arguments) {
     const auto experiment = planned(file, reader, catalogue);
     folder.require(experiment.identity);
     const auto units = sample(experiment.plan, arguments.units, arguments.seed);
+    std::set<UnitKey> keys;
+    for (const auto& unit : units)
+        keys.insert({experiment.plan.expressions[unit.expression].expression.code(), unit.target});
+    auto stored = stored_rows(folder.rows(), keys);
     std::size_t rows = 0;
     {
         Progress progress(arguments.common, "verify", units.size());
         for (const auto& unit : units) {
             const auto& code = experiment.plan.expressions[unit.expression].expression.code();
-            const auto there = stored_rows(folder.rows(), code, unit.target);
+            const auto& there = stored[{code, unit.target}];
             const auto difference = compare(there, computed_rows(reader, catalogue, experiment.plan, unit));
             if (!difference.empty()) differences.push_back(fmt::format("{} {}: {}", code, unit.target, difference));
             rows += there.size();

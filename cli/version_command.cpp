@@ -29,6 +29,7 @@ std::string system_name() {
 nlohmann::ordered_json facts() {
     nlohmann::ordered_json document = {{"schema", 1},
                                        {"mimik", MIMIK_VERSION},
+                                       {"commit", commit()},
                                        {"compiler", MIMIK_COMPILER},
                                        {"build_type", MIMIK_BUILD_TYPE},
                                        {"executor", MIMIK_EXECUTOR_NAME},

@@ -1,5 +1,6 @@
 #include "evaluation/case_store.h"
 
+#include <map>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -79,6 +80,29 @@ CaseStore::CaseStore(fs::path file, Kept) : file_(std::move(file)) {
     if (!out_) throw InputError(fmt::format("{}: cannot be written", name()));
 }
 
+CaseStore::CaseStore(Joined) {}
+
+CaseStore CaseStore::of_files(std::vector<fs::path> files) {
+    CaseStore store{Joined()};
+    std::map<std::string, std::string> checksums;
+    for (const auto& file : files) {
+        const auto whole_bytes = read_case_units(file, [&](const StoredUnit& unit) {
+            const auto [there, is_new] = checksums.try_emplace(unit.name, unit.checksum);
+            if (!is_new && there->second != unit.checksum)
+                throw InputError(
+                    fmt::format("{}: has other rows of unit '{}' than a file before it; remove the file "
+                                "that was made otherwise, and make it again",
+                                file.string(), unit.name));
+        });
+        if (std::error_code none; fs::file_size(file, none) != whole_bytes)
+            throw InputError(
+                fmt::format("{}: is damaged after byte {}; remove it, and make it again", file.string(), whole_bytes));
+    }
+    for (const auto& [unit, checksum] : checksums) store.units_.insert(unit);
+    store.joined_ = std::move(files);
+    return store;
+}
+
 CaseStore CaseStore::gone_on_with(fs::path file) { return {std::move(file), Kept()}; }
 
 CaseStore::CaseStore(CaseStore&&) noexcept = default;
@@ -90,6 +114,10 @@ std::string CaseStore::name() const {
 CaseStore::~CaseStore() = default;
 
 void CaseStore::append(const std::string& unit, std::span<const CaseRow> rows) {
+    if (!joined_.empty())
+        throw InputError(
+            fmt::format("unit '{}' is in none of the files ({} and others) of a run that ought to be whole", unit,
+                        joined_.front().string()));
     if (units_.contains(unit)) throw InputError(fmt::format("unit '{}' is stored already", unit));
     base::ContentHash hash;
     std::string text;
@@ -104,7 +132,13 @@ void CaseStore::append(const std::string& unit, std::span<const CaseRow> rows) {
 }
 
 void CaseStore::read(const std::function<void(const CaseRow&)>& visit) const {
-    const auto units = read_case_rows(path(), visit);
+    std::set<std::string> units;
+    const auto take = [&](const StoredUnit& unit) {
+        if (!units.insert(unit.name).second) return;  // of an earlier file
+        for (const auto& row : unit.rows) visit(row);
+    };
+    for (const auto& file : joined_) read_case_units(file, take);
+    if (joined_.empty()) read_case_units(path(), take);
     if (units != units_)
         throw InputError(fmt::format("{}: {} of {} units can be read back; it was damaged while it was written", name(),
                                      units.size(), units_.size()));
@@ -126,41 +160,55 @@ std::set<std::string> read_case_rows(const fs::path& file, const std::function<v
     return read_case_rows(in, file.string(), visit, whole_bytes);
 }
 
-std::set<std::string> read_case_rows(std::istream& in, const std::string& name_of_file,
+std::set<std::string> read_case_rows(std::istream& in, const std::string& name,
                                      const std::function<void(const CaseRow&)>& visit, std::uintmax_t* whole_bytes) {
+    std::set<std::string> units;
+    const auto bytes = read_case_units(in, name, [&](const StoredUnit& unit) {
+        for (const auto& row : unit.rows) visit(row);
+        units.insert(unit.name);
+    });
+    if (whole_bytes) *whole_bytes = bytes;
+    return units;
+}
+
+std::uintmax_t read_case_units(const fs::path& file, const std::function<void(const StoredUnit&)>& visit) {
+    std::ifstream in(file, std::ios::binary);
+    return read_case_units(in, file.string(), visit);
+}
+
+std::uintmax_t read_case_units(std::istream& in, const std::string& name_of_file,
+                               const std::function<void(const StoredUnit&)>& visit) {
     constexpr std::size_t most_rows = 2'000'000;  // of a unit: 1000 sources by 50 methods leave 800,000
     std::string line;
     if (!next_line(in, line, name_of_file) || line != case_row_header() || in.eof())
         throw InputError(
             fmt::format("{}: is no table of cases; its first line has to be '{}'", name_of_file, case_row_header()));
-    std::set<std::string> units;
-    std::vector<CaseRow> rows;
+    StoredUnit unit;
     base::ContentHash hash;
-    std::uintmax_t bytes = line.size() + 1;
-    if (whole_bytes) *whole_bytes = bytes;
+    std::uintmax_t bytes = line.size() + 1, whole_bytes = bytes;
     while (next_line(in, line, name_of_file)) {
         bytes += line.size() + 1;
         if (line.starts_with(unit_mark)) {
-            const auto name = line.substr(unit_mark.size(), line.rfind(": ") - unit_mark.size());
-            if (in.eof() || line != unit_line(name, rows.size(), hash)) return units;  // cut off or damaged
-            for (const auto& row : rows) visit(row);
-            units.insert(name);
-            if (whole_bytes) *whole_bytes = bytes;
-            rows.clear();
+            unit.name = line.substr(unit_mark.size(), line.rfind(": ") - unit_mark.size());
+            if (in.eof() || line != unit_line(unit.name, unit.rows.size(), hash)) break;  // cut off or damaged
+            unit.checksum = hash.text();
+            visit(unit);
+            whole_bytes = bytes;
+            unit.rows.clear();
             hash = {};
             continue;
         }
         hash.add(line + '\n');
         auto row = decode_case_row(line);
-        if (!row) return units;  // cut off
-        if (rows.size() == most_rows)
+        if (!row) break;  // cut off
+        if (unit.rows.size() == most_rows)
             throw InputError(
                 fmt::format("{}: more than {} rows without the line that ends their unit; it is no table "
                             "of cases as mimik writes it",
                             name_of_file, most_rows));
-        rows.push_back(std::move(*row));
+        unit.rows.push_back(std::move(*row));
     }
-    return units;  // rows without their unit's line were cut off
+    return whole_bytes;  // rows without their unit's line were cut off
 }
 
 }  // namespace mimik::evaluation

@@ -10,6 +10,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/temporary.h"
 #include "evaluation/case_row.h"
@@ -30,12 +31,17 @@ public:
     /// stored, what follows them is cut off. finish() leaves it where it is.
     /// @throws InputError if it is there and no such file, or cannot be written.
     [[nodiscard]] static CaseStore gone_on_with(std::filesystem::path file);
+    /// Of whole files of other stores, read one after another and never written. A unit that several files hold counts
+    /// where it comes first. @throws InputError naming the file that is none, is damaged or torn, or holds other rows
+    /// of a unit than an earlier one.
+    [[nodiscard]] static CaseStore of_files(std::vector<std::filesystem::path> files);
     ~CaseStore();
     CaseStore(CaseStore&&) noexcept;
     CaseStore(const CaseStore&) = delete;
     CaseStore& operator=(const CaseStore&) = delete;
 
-    /// @param unit  one line of text, not stored before. @throws InputError if the disk takes no more.
+    /// @param unit  one line of text, not stored before. @throws InputError if the disk takes no more, or the store is
+    /// one of several files.
     void append(const std::string& unit, std::span<const CaseRow> rows);
     [[nodiscard]] std::size_t units() const { return units_.size(); }
     [[nodiscard]] bool has(const std::string& unit) const { return units_.contains(unit); }
@@ -48,7 +54,9 @@ public:
 
 private:
     struct Kept {};
+    struct Joined {};
     CaseStore(std::filesystem::path file, Kept kept);
+    explicit CaseStore(Joined joined);
     [[nodiscard]] std::string name() const;  // for messages
     [[nodiscard]] const std::filesystem::path& path() const { return written_ ? written_->path() : file_; }
 
@@ -56,7 +64,20 @@ private:
     std::unique_ptr<base::TemporaryFile> written_;  // none: file_ itself
     std::ofstream out_;
     std::set<std::string> units_;
+    std::vector<std::filesystem::path> joined_;  // files of others, which are read and never written
 };
+
+/// One unit of work in a store's file.
+struct StoredUnit {
+    std::string name;
+    std::string checksum;  ///< of its rows
+    std::vector<CaseRow> rows;
+};
+/// The whole units of a store's file, one in memory at a time: up to the first line that does not fit its checksum.
+/// @return how much of the file those units take, with its first line, bytes. @throws as read_case_rows.
+std::uintmax_t read_case_units(std::istream& in, const std::string& name,
+                               const std::function<void(const StoredUnit&)>& visit);
+std::uintmax_t read_case_units(const std::filesystem::path& file, const std::function<void(const StoredUnit&)>& visit);
 
 /// The whole units of a store's file, row by row: up to the first line that does not fit its checksum. One unit is in
 /// memory at a time.

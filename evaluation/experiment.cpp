@@ -44,8 +44,8 @@ CaseRow note_row(const std::string& expression, const char* kind, const std::str
 class ExperimentRun {
 public:
     ExperimentRun(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue, const ExperimentPlan& plan,
-                  CaseStore& store, const RunWatch& watch)
-        : reader_(reader), catalogue_(catalogue), plan_(plan), store_(store), watch_(watch) {}
+                  CaseStore& store, const RunWatch& watch, UnitRange range = {})
+        : reader_(reader), catalogue_(catalogue), plan_(plan), store_(store), watch_(watch), range_(range) {}
 
     void run() {
         for (const auto& reason : plan_.left_out) failures_.add(reason);
@@ -57,6 +57,37 @@ public:
                                   scores_of([&](const auto& visit) { store_.read(visit); },
                                             plan_.on_itself ? Pairs::source_on_itself : Pairs::of_two));
         }
+    }
+    /// The units of the range alone.
+    void run_range() {
+        std::vector<const PlannedExpression*> open;
+        std::size_t first = 0;
+        for (const auto& planned : plan_.expressions) {
+            first_unit_[planned.expression.code()] = first;
+            const std::size_t begin = first;
+            for (const auto& id : planned.performances) first += plan_.is_target(id.subject) ? 1 : 0;
+            if (std::max(begin, range_.begin) >= std::min(first, range_.end)) continue;
+            // Expressions are done one after another: the cast of one says that those before it are whole.
+            if (store_.has(cast_unit(planned.expression.code()))) open.clear();
+            open.push_back(&planned);
+        }
+        if (open.empty()) return;
+        find_usable();
+        for (const auto* planned : open) score(*planned);
+    }
+    /// One unit, whose cases are shown and not stored.
+    void visit(const PlannedExpression& planned, const std::string& target, const CaseVisitor& visit) {
+        find_usable();
+        FailureList failures;
+        const auto cast = cast_of(planned, failures);
+        for (std::size_t t = 0; t < cast.participants.size(); ++t)
+            if (cast.participants[t].subject == target) {
+                (void)score_target(reader_, plan_, cast, t, failures, visit);
+                return;
+            }
+        throw InputError(fmt::format("{} takes no part in expression '{}'{}{}", base::in_quotes(target),
+                                     planned.expression.code(), failures_.sorted().empty() ? "" : ": ",
+                                     fmt::join(failures_.sorted(), "; ")));
     }
     [[nodiscard]] std::vector<std::string> failures() const { return failures_.sorted(); }
     [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
@@ -109,6 +140,26 @@ private:
                                            whom.size() > 1 ? fmt::format(" and {} more", whom.size() - 1) : "", what));
     }
 
+    /// Whether the range has the unit of participant t.
+    [[nodiscard]] bool in_range(const PlannedExpression& planned, const ScanId& participant) const {
+        if (range_ == UnitRange()) return true;
+        std::size_t unit = first_unit_.at(planned.expression.code());
+        for (const auto& id : planned.performances) {
+            if (id.subject == participant.subject) break;
+            unit += plan_.is_target(id.subject) ? 1 : 0;
+        }
+        return range_.contains(unit);
+    }
+
+    [[nodiscard]] Cast cast_of(const PlannedExpression& planned, FailureList& failures) const {
+        std::vector<ScanId> performances;
+        for (const auto& id : planned.performances)
+            if (usable_.contains(id.subject)) performances.push_back(id);
+        const animation::LearningTask task{planned.expression, reader_.workspace().average(), catalogue_,
+                                           reader_.workspace().registrations()};
+        return gather_cast(reader_, task, performances, plan_.methods, failures, plan_.zones);
+    }
+
     void score(const PlannedExpression& planned) {
         const auto& code = planned.expression.code();
         if (all_stored(planned)) {
@@ -117,13 +168,8 @@ private:
                     if (store_.has(target_unit(code, id))) watch_.unit(target_unit(code, id));
             return;
         }
-        std::vector<ScanId> performances;
-        for (const auto& id : planned.performances)
-            if (usable_.contains(id.subject)) performances.push_back(id);
-        const animation::LearningTask task{planned.expression, reader_.workspace().average(), catalogue_,
-                                           reader_.workspace().registrations()};
         FailureList failures;
-        const auto cast = gather_cast(reader_, task, performances, plan_.methods, failures, plan_.zones);
+        const auto cast = cast_of(planned, failures);
         std::vector<std::size_t> targets;
         for (std::size_t t = 0; t < cast.participants.size(); ++t)
             if (plan_.is_target(cast.participants[t].subject)) targets.push_back(t);
@@ -133,6 +179,7 @@ private:
                                      base::counted(cast.participants.size(), "subject is", "subjects are"),
                                      plan_.fewest()));
         store_cast(cast, enough ? targets.size() : 0, failures);
+        std::erase_if(targets, [&](std::size_t t) { return !in_range(planned, cast.participants[t]); });
         if (enough) score_targets(cast, targets);
     }
 
@@ -181,6 +228,8 @@ private:
     const ExperimentPlan& plan_;
     CaseStore& store_;
     const RunWatch& watch_;
+    UnitRange range_;
+    std::map<std::string, std::size_t> first_unit_;  // by expression, where a range is asked for
     FailureList failures_;
     std::set<std::string> usable_;
     std::vector<std::string> remarks_;
@@ -324,6 +373,25 @@ ExperimentReport run_experiment(const PerformanceReader& reader, const facs::Fac
     report.remarks = std::move(notes.remarks);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
+}
+
+void run_units(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue, const ExperimentPlan& plan,
+               UnitRange range, CaseStore& store, const std::function<void(const std::string&)>& progress) {
+    const RunWatch watch{.unit = progress};
+    ExperimentRun(reader, catalogue, plan, store, watch, range).run_range();
+}
+
+void visit_cases(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue, const ExperimentPlan& plan,
+                 const std::string& expression, const std::string& target, const CaseVisitor& visit) {
+    const auto planned = std::find_if(plan.expressions.begin(), plan.expressions.end(),
+                                      [&](const auto& one) { return one.expression.code() == expression; });
+    if (planned == plan.expressions.end())
+        throw InputError(fmt::format("expression '{}' is none of the experiment", expression));
+    auto bare = plan;
+    bare.estimators.clear();
+    CaseStore unused;
+    const RunWatch watch;
+    ExperimentRun(reader, catalogue, bare, unused, watch).visit(*planned, target, visit);
 }
 
 ExperimentReport run_experiment(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,

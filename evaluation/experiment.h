@@ -9,9 +9,11 @@
 
 #include "evaluation/anchors.h"
 #include "evaluation/case_store.h"
+#include "evaluation/estimator.h"
 #include "evaluation/performance.h"
 #include "evaluation/plan.h"
 #include "evaluation/score.h"
+#include "evaluation/shard.h"
 
 namespace mimik::evaluation {
 
@@ -75,6 +77,20 @@ struct RunWatch {
 /// again: the rows are those of one run from start to end, byte for byte.
 [[nodiscard]] ExperimentReport run_experiment(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
                                               const ExperimentPlan& plan, CaseStore& store, const RunWatch& watch = {});
+
+/// Stores the rows of the plan's units in `range` and of the casts that they need, those that the store holds already
+/// left out; what an earlier run of the same range stored is the beginning. Reports nothing: CaseStore::of_files and
+/// run_experiment() do, over all ranges.
+/// A unit that fails is a row of its own and stops nothing.
+void run_units(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue, const ExperimentPlan& plan,
+               UnitRange range, CaseStore& store, const std::function<void(const std::string&)>& progress = {});
+
+/// Judges the cases of one target of one expression again and shows them. Cases without an answer are not shown.
+/// @param plan  with the methods that are wanted; what an estimator adds is left out
+/// @throws InputError if the plan has no such expression, or the target takes no part in it.
+void visit_cases(const PerformanceReader& reader, const facs::FacsCatalogue& catalogue, const ExperimentPlan& plan,
+                 const std::string& expression, const std::string& target,
+                 const std::function<void(const CaseKey&, const JudgedFace&)>& visit);
 
 /// The same for who wants no more than the report. @throws as plan_experiment() and run_experiment().
 [[nodiscard]] ExperimentReport run_experiment(const preprocessing::Workspace& workspace,

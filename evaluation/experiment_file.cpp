@@ -215,9 +215,22 @@ void read_statistics(const Section& section, ExperimentFile& file) {
     }
 }
 
+void read_output(const Section& section, ExperimentFile& file) {
+    section.only({"per_vertex"});
+    section.each("per_vertex", [&](const toml::node& element) {
+        const auto text = section.text("per_vertex", element);
+        section.checked(element, [&] {
+            auto choice = parse_case_choice(text);
+            if (std::find(file.per_vertex.begin(), file.per_vertex.end(), choice) != file.per_vertex.end())
+                throw InputError(fmt::format("case {} is asked for twice", base::in_quotes(text)));
+            file.per_vertex.push_back(std::move(choice));
+        });
+    });
+}
+
 void read_document(const Section& document, ExperimentFile& file) {
     document.only({"schema", "database", "workspace", "unit", "catalogue", "emotions", "expressions", "methods",
-                   "magnitudes", "seed", "subjects", "evaluation", "statistics"});
+                   "magnitudes", "seed", "subjects", "evaluation", "statistics", "output"});
     const auto* schema = document.find("schema");
     if (!schema) throw InputError(fmt::format("{}:1: 'schema' is missing; write schema = 1", file.name));
     if (schema->value_exact<std::int64_t>() != 1) document.refuse("schema", "is not 1, the one that this mimik knows");
@@ -250,6 +263,7 @@ void read_document(const Section& document, ExperimentFile& file) {
     });
     document.below("evaluation", [&](const Section& section) { read_evaluation(section, file); });
     document.below("statistics", [&](const Section& section) { read_statistics(section, file); });
+    document.below("output", [&](const Section& section) { read_output(section, file); });
     for (const auto* needed : {"expressions", "methods"})
         if (!file.lines.contains(needed)) throw InputError(fmt::format("{}:1: '{}' is missing", file.name, needed));
 }

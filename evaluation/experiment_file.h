@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "evaluation/per_vertex.h"
 #include "evaluation/plan.h"
 
 namespace mimik::evaluation {
@@ -44,6 +45,7 @@ struct ExperimentFile {
     Alignment alignment = Alignment::given;
     int resamples = 2000;  ///< of bootstrap and permutations
     double confidence = 0.95;
+    std::vector<CaseChoice> per_vertex = {};     ///< cases of which every vertex's error is written
     std::map<std::string, unsigned> lines = {};  ///< of each key that was read: "subjects.targets"
 
     /// What the file itself says of them: all but expressions and subjects, which a workspace has to know.

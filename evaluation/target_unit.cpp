@@ -28,8 +28,9 @@ namespace {
 class TargetRun {
 public:
     TargetRun(const PerformanceReader& reader, const ExperimentPlan& plan, const Cast& cast, std::size_t t,
-              FailureList& failures)
-        : plan_(plan),
+              FailureList& failures, const CaseVisitor& visit)
+        : visit_(visit),
+          plan_(plan),
           cast_(cast),
           failures_(failures),
           own_(reader.read(cast.participants[t])),
@@ -121,6 +122,7 @@ private:
     }
 
     void measure(const CaseKey& key, const JudgedFace& judged, const std::string& no_answer) {
+        if (visit_ && no_answer.empty()) visit_(key, judged);
         const auto reason = no_answer.empty() ? std::string() : "scored as doing nothing: " + no_answer;
         for (const auto& estimator : known_estimators())
             for (const auto& found : estimator->measure(judged))
@@ -130,6 +132,7 @@ private:
             rows_.push_back({key, estimator, found.region, found.metric, found.value, found.unit, reason});
     }
 
+    const CaseVisitor& visit_;
     const ExperimentPlan& plan_;
     const Cast& cast_;
     FailureList& failures_;
@@ -146,9 +149,9 @@ private:
 }  // namespace
 
 std::vector<CaseRow> score_target(const PerformanceReader& reader, const ExperimentPlan& plan, const Cast& cast,
-                                  std::size_t t, FailureList& failures) {
+                                  std::size_t t, FailureList& failures, const CaseVisitor& visit) {
     try {
-        return TargetRun(reader, plan, cast, t, failures).run();
+        return TargetRun(reader, plan, cast, t, failures, visit).run();
     } catch (const std::exception& e) {
         failures.add(fmt::format("{}: no case with target {}: {}", cast.expression.code(), cast.participants[t].subject,
                                  e.what()));

@@ -19,6 +19,8 @@ packages=(
   libgtest-dev libgmock-dev
   # the peers of our statistics (tests/statistics/peers.py): 28 MB to fetch
   python3-scipy python3-statsmodels
+  # a Slurm of its own for tests/cli/slurm.sh: 3 MB to fetch
+  slurmctld slurmd slurm-client munge
 )
 for option in "$@"; do
   case "$option" in

@@ -126,5 +126,35 @@ TEST(CaseStore, that_is_none_is_not_gone_on_with) {
     }
 }
 
+TEST(CaseStore, of_several_files_counts_a_unit_where_it_comes_first_and_names_the_file_at_fault) {
+    const database::TemporaryFolder folder;
+    const auto write = [&](const char* name, const std::vector<std::pair<std::string, CaseRow>>& units) {
+        CaseStore store(folder.path() / name);
+        for (const auto& [unit, row] : units) store.append(unit, std::vector{row});
+        store.finish();
+        return folder.path() / name;
+    };
+    const auto first = write("first", {{"cast", odd}, {"1", whole}});
+    const auto second = write("second", {{"cast", odd}, {"2", whole}});
+    auto store = CaseStore::of_files({first, second});
+    EXPECT_THAT(rows_of(store), ElementsAre(odd, whole, whole));
+    EXPECT_EQ(store.units(), 3U);
+    EXPECT_TRUE(store.has("2"));
+    EXPECT_THAT(database::message_of<InputError>([&] { store.append("3", std::vector{whole}); }),
+                HasSubstr("none of the files"));
+
+    const auto other = write("other", {{"cast", whole}});
+    EXPECT_THAT(database::message_of<InputError>([&] {
+                    (void)CaseStore::of_files({first, other});
+                }),
+                testing::AllOf(HasSubstr("other: "), HasSubstr("other rows of unit 'cast'")));
+    const auto text = base::read_text(second);
+    base::write_atomically(second, text.substr(0, text.size() - 4));
+    EXPECT_THAT(database::message_of<InputError>([&] {
+                    (void)CaseStore::of_files({first, second});
+                }),
+                testing::AllOf(HasSubstr("second: is damaged after byte"), HasSubstr("make it again")));
+}
+
 }  // namespace
 }  // namespace mimik::evaluation
