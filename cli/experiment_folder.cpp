@@ -197,6 +197,7 @@ void ExperimentFolder::clear() const {
     std::error_code none;
     for (const auto& file : results_in(root_)) fs::remove(file, none);
     fs::remove(provenance(), none);
+    fs::remove(page(), none);
 }
 
 void ExperimentFolder::seal() const {

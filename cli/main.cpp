@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_model_command(app, exit_code);
     mimik::cli::add_evaluate_command(app, exit_code);
     mimik::cli::add_run_command(app, exit_code);
+    mimik::cli::add_report_command(app, exit_code);
     mimik::cli::add_verify_command(app, exit_code);
     mimik::cli::add_tune_command(app, exit_code);
     mimik::cli::add_panels_command(app, exit_code);
