@@ -70,6 +70,7 @@ int run(const Arguments& arguments) {
 
 }  // namespace
 
+void add_report_command(CLI::App& app, int& exit_code);  // TEMP
 void add_report_command(CLI::App& app, int& exit_code) {
     auto* command = app.add_subcommand(
         "report", "Write the page of a finished experiment: tables, plots and faces in one HTML file");
