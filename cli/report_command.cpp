@@ -60,8 +60,8 @@ int run(const Arguments& arguments) {
     }
     const auto bytes = fs::file_size(folder.page());
     if (arguments.common.json)
-        std::cout << io::json_text(nlohmann::json{
-            {"schema", 1}, {"page", folder.page().string()}, {"bytes", bytes}, {"remarks", remarks}});
+        std::cout << io::json_text(
+            nlohmann::json{{"schema", 1}, {"page", folder.page().string()}, {"bytes", bytes}, {"remarks", remarks}});
     else
         std::cout << fmt::format("{}: {:.1f} MB\n", folder.page().string(), static_cast<double>(bytes) / 1e6);
     if (!arguments.common.quiet && !arguments.common.json) say_notes(remarks);

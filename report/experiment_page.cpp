@@ -31,9 +31,7 @@ std::string dumped(const ordered_json& document) {
     return document.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-ordered_json json_of(const std::optional<double>& value) {
-    return value ? ordered_json(*value) : ordered_json();
-}
+ordered_json json_of(const std::optional<double>& value) { return value ? ordered_json(*value) : ordered_json(); }
 
 /// "AU12L" for "12L"; words as they are.
 std::string label_of(const std::string& code) {
@@ -74,8 +72,8 @@ json score_row(const json& scores, const Variant& variant) {
 }
 
 /// Those that the table of methods shows beside what the comparison says.
-constexpr std::array score_fields = {"share",          "explained_median",      "explained_whole_face", "still_skin_mm",
-                                     "peak_ratio",     "lip_aperture_error_mm", "lips_over_hole"};
+constexpr std::array score_fields = {"share",      "explained_median",      "explained_whole_face", "still_skin_mm",
+                                     "peak_ratio", "lip_aperture_error_mm", "lips_over_hole"};
 
 ordered_json methods_json(const evaluation::Comparison& comparison, const json& scores) {
     std::vector<std::string> names;
@@ -95,8 +93,8 @@ ordered_json methods_json(const evaluation::Comparison& comparison, const json& 
                 cases += score.at("cases").get<std::size_t>();
                 worse += score.at("worse_than_nothing").get<std::size_t>();
             }
-        entry["worse_share"] = cases == 0 ? ordered_json()
-                                          : ordered_json(static_cast<double>(worse) / static_cast<double>(cases));
+        entry["worse_share"] =
+            cases == 0 ? ordered_json() : ordered_json(static_cast<double>(worse) / static_cast<double>(cases));
         methods.push_back(entry);
     }
     return methods;
@@ -195,8 +193,11 @@ ordered_json cases_json(std::vector<PageCase> cases, std::size_t most) {
     for (const auto& one : cases)
         rows.push_back({place_of(names[0], one.target), place_of(names[1], one.expression),
                         place_of(names[2], one.method), one.cases, one.error, one.nothing});
-    return {{"targets", names[0]}, {"expressions", names[1]}, {"methods", names[2]},
-            {"rows", rows},        {"left_out", all - cases.size()}};
+    return {{"targets", names[0]},
+            {"expressions", names[1]},
+            {"methods", names[2]},
+            {"rows", rows},
+            {"left_out", all - cases.size()}};
 }
 
 /// Those of the figures, so that a page and a figure say the same in colour.
@@ -215,23 +216,25 @@ ordered_json colours_json() {
 std::string page_data(const evaluation::CaseRowReader& read, const PageExperiment& experiment,
                       const facs::FacsCatalogue& catalogue) {
     const auto comparison = evaluation::compare_methods(read, experiment.comparison);
-    return io::read_json_document(experiment.scores, "scores.json", "run the experiment again", [&](const json& scores) {
-        auto expressions = ordered_json::array();
-        for (const auto& code : scores.at("expressions").get<std::vector<std::string>>())
-            expressions.push_back({{"code", code}, {"label", label_of(code)}, {"words", words_of(catalogue, code)}});
-        return dumped({{"schema", 1},
-                       {"title", experiment.title},
-                       {"unit", comparison.unit},
-                       {"confidence", experiment.comparison.confidence},
-                       {"synthetic", !scores.at("truth").is_null()},
-                       {"expressions", expressions},
-                       {"methods", methods_json(comparison, scores)},
-                       {"results", results_json(comparison)},
-                       {"anchors", scores.at("anchors")},
-                       {"differences", differences_json(comparison)},
-                       {"cases", cases_json(page_cases(read, experiment.comparison), experiment.most_cases)},
-                       {"colours", colours_json()}});
-    });
+    return io::read_json_document(
+        experiment.scores, "scores.json", "run the experiment again", [&](const json& scores) {
+            auto expressions = ordered_json::array();
+            for (const auto& code : scores.at("expressions").get<std::vector<std::string>>())
+                expressions.push_back(
+                    {{"code", code}, {"label", label_of(code)}, {"words", words_of(catalogue, code)}});
+            return dumped({{"schema", 1},
+                           {"title", experiment.title},
+                           {"unit", comparison.unit},
+                           {"confidence", experiment.comparison.confidence},
+                           {"synthetic", !scores.at("truth").is_null()},
+                           {"expressions", expressions},
+                           {"methods", methods_json(comparison, scores)},
+                           {"results", results_json(comparison)},
+                           {"anchors", scores.at("anchors")},
+                           {"differences", differences_json(comparison)},
+                           {"cases", cases_json(page_cases(read, experiment.comparison), experiment.most_cases)},
+                           {"colours", colours_json()}});
+        });
 }
 
 PageParts read_page_parts(const std::filesystem::path& folder) {
@@ -293,7 +296,8 @@ mustache::data provenance(const ordered_json& identity) {
     };
     add(identity, {"schema", "experiment", "inputs", "truth"});
     if (identity.contains("experiment")) add(identity.at("experiment"), {"methods", "expressions"});
-    for (const auto& [key, value] : identity.value("inputs", ordered_json::object()).items())
+    const auto inputs = identity.value("inputs", ordered_json::object());
+    for (const auto& [key, value] : inputs.items())
         if (!value.is_null()) list << named("hash of the " + key_in_words(key), in_words(value));
     if (identity.contains("truth")) add(identity.at("truth"), {});
     return list;
@@ -344,18 +348,17 @@ std::vector<std::string> findings(const json& data) {
         if (holder.is_null() || result.at("explained") > holder.at("explained")) holder = result;
     }
     for (const auto& [kind, result] : best) {
-        const auto interval = result.at("low").is_null()
-                                  ? std::string(" (too few subjects for an interval)")
-                                  : fmt::format(" ({:.0f} % interval {:.2f} to {:.2f})",
-                                                100 * data.at("confidence").get<double>(),
-                                                result.at("low").get<double>(), result.at("high").get<double>());
-        sentences.push_back(fmt::format(
-            "{}: {} explains {:.2f} of the motion{}, and is {:.2f} mm off the real scan.",
-            kind == "mean" ? "Of the methods that learn from everybody else"
-                           : kind == "none" ? "Of the methods that learn from nobody"
-                                            : "Of the methods that learn from one person",
-            result.at("method").get<std::string>(), result.at("explained").get<double>(), interval,
-            result.at("error_mm").get<double>()));
+        const auto interval =
+            result.at("low").is_null()
+                ? std::string(" (too few subjects for an interval)")
+                : fmt::format(" ({:.0f} % interval {:.2f} to {:.2f})", 100 * data.at("confidence").get<double>(),
+                              result.at("low").get<double>(), result.at("high").get<double>());
+        sentences.push_back(fmt::format("{}: {} explains {:.2f} of the motion{}, and is {:.2f} mm off the real scan.",
+                                        kind == "mean"   ? "Of the methods that learn from everybody else"
+                                        : kind == "none" ? "Of the methods that learn from nobody"
+                                                         : "Of the methods that learn from one person",
+                                        result.at("method").get<std::string>(), result.at("explained").get<double>(),
+                                        interval, result.at("error_mm").get<double>()));
     }
     return sentences;
 }
@@ -367,8 +370,8 @@ std::vector<std::string> anchors_in_words(const json& data) {
         auto text = fmt::format("The {} is unknown: {}.", anchor.at("title").get<std::string>(),
                                 anchor.at("unknown").get<std::string>());
         if (anchor.contains("published_mm"))
-            text += fmt::format(" Published: {} to {} mm (Johnston et al. 2003).",
-                                anchor.at("published_mm")[0].dump(), anchor.at("published_mm")[1].dump());
+            text += fmt::format(" Published: {} to {} mm (Johnston et al. 2003).", anchor.at("published_mm")[0].dump(),
+                                anchor.at("published_mm")[1].dump());
         sentences.push_back(text);
     }
     if (!data.at("synthetic")) sentences.emplace_back("The true field is unknown: the database has no truth.");

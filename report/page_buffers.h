@@ -9,8 +9,8 @@
 namespace mimik::report {
 
 // Numbers of a face as the report's page carries them (report/page/src/buffers.js reads them): whole steps of 0.01 mm,
-// each less its predecessor, low bytes before high bytes, deflated, in base64. Neighbours on a face differ by little, so
-// a vertex takes 3 to 5 bytes.
+// each less its predecessor, low bytes before high bytes, deflated, in base64. Neighbours on a face differ by little,
+// so a vertex takes 3 to 5 bytes.
 
 /// A step of coordinates and distances: a tenth of what scanners resolve.
 inline constexpr double page_step_mm = 0.01;
@@ -25,7 +25,8 @@ inline constexpr std::int16_t page_no_value = std::numeric_limits<std::int16_t>:
 /// Bytes, deflated, in base64.
 [[nodiscard]] std::string packed_bytes(std::span<const std::uint8_t> bytes);
 
-/// What packed_steps() and packed_bytes() packed, for tests and other readers. @throws InputError if it is no such text.
+/// What packed_steps() and packed_bytes() packed, for tests and other readers. @throws InputError if it is no such
+/// text.
 [[nodiscard]] std::vector<std::int16_t> unpacked_steps(const std::string& text, std::size_t count);
 [[nodiscard]] std::vector<std::uint8_t> unpacked_bytes(const std::string& text, std::size_t count);
 

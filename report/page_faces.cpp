@@ -54,7 +54,7 @@ struct Sums {
 using TargetScores = std::map<std::string, std::map<std::string, double>>;  // by method, by target
 
 TargetScores target_scores(const evaluation::CaseRowReader& read) {
-    std::map<std::array<std::string, 2>, double> nothing;                 // by target and expression
+    std::map<std::array<std::string, 2>, double> nothing;                  // by target and expression
     std::map<std::string, std::map<std::array<std::string, 2>, Sums>> of;  // by method, likewise
     const auto visit_zone = [&](const auto& visit) {
         read([&](const CaseRow& row) {
@@ -99,8 +99,8 @@ std::vector<std::string> shown_methods(const TargetScores& scores, const Experim
         if (method->name() != evaluation::baseline_method) names.push_back(method->name());
     for (const auto& name : asked)
         if (std::find(names.begin(), names.end(), name) == names.end())
-            throw InputError(fmt::format("method '{}' is none of the experiment; it has {}", name,
-                                         fmt::join(names, ", ")));
+            throw InputError(
+                fmt::format("method '{}' is none of the experiment; it has {}", name, fmt::join(names, ", ")));
     if (!asked.empty()) return asked;
     std::set<std::string> wanted;
     std::map<SourceKind, std::pair<double, std::string>> best;
@@ -148,7 +148,8 @@ PageChoice choose_faces(const evaluation::CaseRowReader& read, const ExperimentP
             {ranked[rank].second, fmt::format("rank {} of {} by {}", rank + 1, ranked.size(), judge)});
     };
     for (const auto& target : options.targets) {
-        const auto found = std::find_if(ranked.begin(), ranked.end(), [&](const auto& r) { return r.second == target; });
+        const auto found =
+            std::find_if(ranked.begin(), ranked.end(), [&](const auto& r) { return r.second == target; });
         if (found == ranked.end())
             throw InputError(fmt::format("target '{}' has no row in the experiment; rows.csv lists who has", target));
         add(static_cast<std::size_t>(found - ranked.begin()));
@@ -288,9 +289,8 @@ public:
         auto shape = judged(field);
         shape["method"] = method.name();
         shape["source"] = source;
-        shape["motion"] = packed_points(inside_.size(), [&](std::size_t k) -> Vector {
-            return frame_.page_from_scan * way_mm(field, inside_[k]);
-        });
+        shape["motion"] = packed_points(
+            inside_.size(), [&](std::size_t k) -> Vector { return frame_.page_from_scan * way_mm(field, inside_[k]); });
         std::vector<std::uint8_t> lips;
         if (const auto sides = transfer->lip_sides(prepared_); !sides.empty())
             for (const auto v : inside_) lips.push_back(static_cast<std::uint8_t>(sides[v]));
@@ -384,15 +384,13 @@ std::string page_faces(const evaluation::PerformanceReader& reader, const facs::
     for (const auto& planned : plan.expressions) {
         if (choice.faces.empty()) break;
         evaluation::FailureList told;  // by the run itself
+        const animation::LearningTask task{planned.expression, reader.workspace().average(), catalogue,
+                                           reader.workspace().registrations()};
         const auto cast =
-            evaluation::gather_cast(reader,
-                                    {planned.expression, reader.workspace().average(), catalogue,
-                                     reader.workspace().registrations()},
-                                    planned.performances, shown.methods, told, plan.zones);
+            evaluation::gather_cast(reader, task, planned.performances, shown.methods, told, plan.zones);
         std::vector<Piece> pieces(choice.faces.size());
-        base::parallel_for_each(pieces.size(), [&](std::size_t f) {
-            pieces[f] = piece_of(reader, shown, cast, choice.faces[f]);
-        });
+        base::parallel_for_each(pieces.size(),
+                                [&](std::size_t f) { pieces[f] = piece_of(reader, shown, cast, choice.faces[f]); });
         for (std::size_t f = 0; f < pieces.size(); ++f) {
             remarks.insert(remarks.end(), pieces[f].remarks.begin(), pieces[f].remarks.end());
             if (pieces[f].expression.is_null()) continue;
@@ -406,9 +404,10 @@ std::string page_faces(const evaluation::PerformanceReader& reader, const facs::
     for (std::size_t f = 0; f < faces.size(); ++f) {
         if (faces[f].is_null()) continue;
         if (total + bytes[f] > options.most_bytes) {
-            remarks.push_back(fmt::format("{}: its face would make the page too large; 'mimik report OUT --target {}' "
-                                          "makes a page of it",
-                                          choice.faces[f].target, choice.faces[f].target));
+            remarks.push_back(
+                fmt::format("{}: its face would make the page too large; 'mimik report OUT --target {}' "
+                            "makes a page of it",
+                            choice.faces[f].target, choice.faces[f].target));
             continue;
         }
         total += bytes[f];

@@ -13,10 +13,10 @@ namespace mimik::report {
 
 /// Which faces the page shows in three dimensions.
 struct PageFacesOptions {
-    int most_faces = 4;                      ///< evenly spaced from the best target to the worst; 0: none
-    std::vector<std::string> targets = {};   ///< these instead
-    std::vector<std::string> methods = {};   ///< these instead of the first and the best ones
-    std::size_t most_bytes = 18'000'000;     ///< of all faces together, so that the page stays below 30 MB
+    int most_faces = 4;                     ///< evenly spaced from the best target to the worst; 0: none
+    std::vector<std::string> targets = {};  ///< these instead
+    std::vector<std::string> methods = {};  ///< these instead of the first and the best ones
+    std::size_t most_bytes = 18'000'000;    ///< of all faces together, so that the page stays below 30 MB
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
@@ -46,8 +46,8 @@ struct PageChoice {
 [[nodiscard]] PageChoice choose_faces(const evaluation::CaseRowReader& read, const evaluation::ExperimentPlan& plan,
                                       const PageFacesOptions& options = {});
 
-/// The chosen faces as JSON (docs/report.md): the neutral face, and of each expression its real scan, the motion of each
-/// method at magnitude 1 from the target's first source, distances to the real scan and control points. Zones,
+/// The chosen faces as JSON (docs/report.md): the neutral face, and of each expression its real scan, the motion of
+/// each method at magnitude 1 from the target's first source, distances to the real scan and control points. Zones,
 /// alignment and distances are those of the experiment's rows. A face that would take more than the bytes left is left
 /// out, and `remarks` say so, as they do of what gives no answer.
 [[nodiscard]] std::string page_faces(const evaluation::PerformanceReader& reader, const facs::FacsCatalogue& catalogue,

@@ -53,3 +53,14 @@ cmp first.html out/report.html
 "$mimik" report out --no-workspace --quiet >/dev/null
 expect_code 2 "is no finished experiment" "$mimik" report moved
 claim "faces and methods are chosen, and a workspace that was moved is named"
+
+# The tutorial's Python lines on these results say what the statistics say.
+if command -v python3 >/dev/null; then
+  mv out results
+  sed -n '/^```python$/,/^```$/p' "$(dirname "${BASH_SOURCE[0]}")/../../docs/tutorial.md" | sed '/^```/d' >load.py
+  python3 load.py | tr -d '\r' | sort >loaded.csv
+  awk -F, '$1 == "zone" && $2 != "" { print $3 "," $2 "," $4 "," $6 }' results/statistics/methods.csv | sort >told.csv
+  [ -s told.csv ] || fail "no statistics"
+  grep -xFf told.csv loaded.csv | diff - told.csv || fail "the tutorial's lines"
+  claim "rows are loaded as the tutorial prints it"
+fi

@@ -78,7 +78,7 @@ export class Page {
     return result.value;
   }
   /** Waits until the expression is true. */
-  async until(expression, seconds = 30) {
+  async until(expression, seconds = 60) {
     for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise(resolve => setTimeout(resolve, 50)))
       if (await this.value(expression)) return;
     throw new Error(`not within ${seconds} s: ${expression}; faults: ${this.faults.join('; ') || 'none'}`);

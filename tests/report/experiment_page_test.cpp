@@ -42,37 +42,37 @@ void read_rows(const std::function<void(const CaseRow&)>& visit) {
 }
 
 json score_row(const std::string& method) {
-    return {{"method", method}, {"share", nullptr}, {"expressions", {{"12", {{"cases", 6}, {"worse_than_nothing", 3}}}}}};
+    return {
+        {"method", method}, {"share", nullptr}, {"expressions", {{"12", {{"cases", 6}, {"worse_than_nothing", 3}}}}}};
 }
 
 PageExperiment experiment() {
     PageExperiment one;
     one.title = evil;
     one.comparison.resamples = 200;  // of intervals, which no claim here is about
-    one.scores = json{{"schema", 1},
-                      {"subjects", {"bs000", "bs001", evil}},
-                      {"expressions", {"12"}},
-                      {"zones", "data"},
-                      {"alignment", "ICP on the stable region"},
-                      {"truth", nullptr},
-                      {"anchors",
-                       {{{"method", "repeated-expression"},
-                         {"title", "performer floor"},
-                         {"mm", {{"12", nullptr}}},
-                         {"explained", {{"12", nullptr}}},
-                         {"targets", {{"12", 0}}},
-                         {"published_mm", {0.7, 1.1}},
-                         {"unknown", "nobody has a second scan"}}}},
-                      {"rows", {score_row("default"), score_row("mean")}},
-                      {"failures", {evil}}}
-                     .dump();
+    one.scores = json{
+        {"schema", 1},
+        {"subjects", {"bs000", "bs001", evil}},
+        {"expressions", {"12"}},
+        {"zones", "data"},
+        {"alignment", "ICP on the stable region"},
+        {"truth", nullptr},
+        {"anchors",
+         {{{"method", "repeated-expression"},
+           {"title", "performer floor"},
+           {"mm", {{"12", nullptr}}},
+           {"explained", {{"12", nullptr}}},
+           {"targets", {{"12", 0}}},
+           {"published_mm", {0.7, 1.1}},
+           {"unknown", "nobody has a second scan"}}}},
+        {"rows", {score_row("default"), score_row("mean")}},
+        {"failures",
+         {evil}}}.dump();
     one.identity = json{{"schema", 1}, {"mimik", "0.1.0"}, {"compiler", evil}}.dump();
     return one;
 }
 
-json data_of(const PageExperiment& one) {
-    return json::parse(page_data(read_rows, one, facs::builtin_catalogue()));
-}
+json data_of(const PageExperiment& one) { return json::parse(page_data(read_rows, one, facs::builtin_catalogue())); }
 
 constexpr const char* small_page =
     "<title>{{title}}</title>{{#findings}}<li>{{text}}</li>{{/findings}}{{#anchors}}<p>{{text}}</p>{{/anchors}}"
@@ -131,7 +131,8 @@ TEST(ExperimentPage, line_separators_of_javascript_and_broken_utf_8_do_no_harm) 
 
 TEST(ExperimentPage, an_anchor_that_is_missing_is_said_to_be_with_the_reason) {
     const auto one = experiment();
-    const auto page = experiment_page({small_page, "", ""}, one, page_data(read_rows, one, facs::builtin_catalogue()), "");
+    const auto page =
+        experiment_page({small_page, "", ""}, one, page_data(read_rows, one, facs::builtin_catalogue()), "");
     EXPECT_THAT(page, HasSubstr("The performer floor is unknown: nobody has a second scan. Published: 0.7 to 1.1 mm"));
     EXPECT_THAT(page, HasSubstr("The true field is unknown: the database has no truth."));
     EXPECT_THAT(page, HasSubstr("default explains 0.50 of the motion"));

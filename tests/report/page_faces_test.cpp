@@ -43,8 +43,8 @@ protected:
     static void read(const std::function<void(const CaseRow&)>& visit) { store_->read(visit); }
     static json faces(const PageFacesOptions& options, std::vector<std::string>* told = nullptr) {
         std::vector<std::string> remarks;
-        const auto text = page_faces(*reader_, facs::builtin_catalogue(), *plan_,
-                                     choose_faces(read, *plan_, options), options, remarks);
+        const auto text = page_faces(*reader_, facs::builtin_catalogue(), *plan_, choose_faces(read, *plan_, options),
+                                     options, remarks);
         if (told) *told = remarks;
         return json::parse(text);
     }
@@ -73,7 +73,8 @@ TEST_F(PageFaces, every_error_is_that_of_the_row_and_the_heat_map_has_it_as_its_
     ASSERT_EQ(smile.at("shapes").size(), 2U);
     EXPECT_EQ(smile.at("nothing").at("error_mm"), row_mm("", face.at("target"), "nothing"));
     for (const auto& shape : smile.at("shapes")) {
-        EXPECT_EQ(shape.at("error_mm"), row_mm(shape.at("source"), face.at("target"), shape.at("method"))) << shape.at("method");
+        EXPECT_EQ(shape.at("error_mm"), row_mm(shape.at("source"), face.at("target"), shape.at("method")))
+            << shape.at("method");
         const auto steps = unpacked_steps(shape.at("distance"), vertices);
         double sum = 0;
         std::size_t count = 0;

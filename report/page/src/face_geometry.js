@@ -57,7 +57,9 @@ export class Face {
       if (!shape) return null;
       const [motion, distance, lips] = await Promise.all([
         unpackPoints(shape.motion, this.stepMm), unpackSteps(shape.distance), shape.lips ? unpackBytes(shape.lips) : null]);
-      return {motion, distance: distancesOf(distance, this.stepMm, this.noValue), lips};
+      let largest = 0;
+      for (let k = 0; k < motion.length; k += 3) largest = Math.max(largest, Math.hypot(motion[k], motion[k + 1], motion[k + 2]));
+      return {motion, largest, distance: distancesOf(distance, this.stepMm, this.noValue), lips};
     });
   }
 

@@ -133,7 +133,7 @@ export class FacePanel {
   async coloured(animated) {
     if (this.heat === 'none') return {colours: null};
     const values = this.heat === 'motion' ? animated.length : await this.distances();
-    const most = this.heat === 'motion' ? Math.max(1, quantile((await this.face.motion(this.code, this.method))?.distance ? animated.length : new Float32Array(), 0.999))
+    const most = this.heat === 'motion' ? Math.max(0.5, (await this.face.motion(this.code, this.method))?.largest ?? 0)
       : Math.max(0.5, quantile(await this.face.nothing(this.code), 0.99));
     const scale = Math.ceil(most * 2) / 2;
     const zone = this.zoneOnly ? await this.face.zone(this.code) : null;

@@ -86,12 +86,12 @@ class FaceView {
     this.draw();
   }
   draw() {
-    if (this.wanted) return;
+    if (this.wanted || !this.geometry.index) return;
     this.wanted = true;
     requestAnimationFrame(() => {
       this.wanted = false;
       this.renderer.render(this.scene, this.camera);
-      if (this.geometry.index && !this.canvas.dataset.firstPictureMs) this.canvas.dataset.firstPictureMs = String(Math.round(performance.now()));
+      if (!this.canvas.dataset.firstPictureMs) this.canvas.dataset.firstPictureMs = String(Math.round(performance.now()));
     });
   }
 }

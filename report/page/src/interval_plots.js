@@ -1,6 +1,6 @@
 // One plot per expression: a line per method with its interval and a dot per target, anchors as rules.
 
-import {plot, axisX, axisY, dot, link, ruleX, tickX} from '@observablehq/plot';
+import {plot, axisX, axisY, dot, link, ruleX} from '@observablehq/plot';
 import {element, shown} from './dom.js';
 
 const least = -1;  // what is far below doing nothing is drawn at the border
