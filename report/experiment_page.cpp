@@ -43,7 +43,11 @@ std::string words_of(const facs::FacsCatalogue& catalogue, const std::string& co
     const auto expression = catalogue.find_expression(code);
     if (!expression || expression->own_word()) return {};
     const auto units = catalogue.units(*expression);
-    return units.size() == 1 && units.front().unit ? units.front().unit->name : std::string();
+    if (units.size() != 1 || !units.front().unit) return {};
+    const auto side = units.front().side;
+    return units.front().unit->name + (side == facs::Side::left    ? " (left)"
+                                       : side == facs::Side::right ? " (right)"
+                                                                   : "");
 }
 
 /// A method of the rows, or "mean@0.8".

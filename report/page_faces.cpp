@@ -372,6 +372,26 @@ Piece piece_of(const evaluation::PerformanceReader& reader, const ExperimentPlan
 
 }  // namespace
 
+namespace {
+
+/// The subjects that take part in a case, as the run itself finds them out.
+std::set<std::string> usable_subjects(const evaluation::PerformanceReader& reader, const ExperimentPlan& plan) {
+    std::vector<char> usable(plan.subjects.size(), 0);
+    base::parallel_for_each(usable.size(), [&](std::size_t s) {
+        try {
+            (void)reader.check_neutral(plan.subjects[s]);
+            usable[s] = 1;
+        } catch (const std::exception&) {  // told by the run itself
+        }
+    });
+    std::set<std::string> names;
+    for (std::size_t s = 0; s < usable.size(); ++s)
+        if (usable[s] != 0) names.insert(plan.subjects[s]);
+    return names;
+}
+
+}  // namespace
+
 std::string page_faces(const evaluation::PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
                        const ExperimentPlan& plan, const PageChoice& choice, const PageFacesOptions& options,
                        std::vector<std::string>& remarks) {
@@ -381,13 +401,16 @@ std::string page_faces(const evaluation::PerformanceReader& reader, const facs::
     });
     std::vector<ordered_json> faces(choice.faces.size());
     std::vector<std::size_t> bytes(choice.faces.size(), 0);
+    std::set<std::string> usable;
+    if (!choice.faces.empty()) usable = usable_subjects(reader, plan);
     for (const auto& planned : plan.expressions) {
         if (choice.faces.empty()) break;
+        auto performances = planned.performances;
+        std::erase_if(performances, [&](const auto& id) { return !usable.contains(id.subject); });
         evaluation::FailureList told;  // by the run itself
         const animation::LearningTask task{planned.expression, reader.workspace().average(), catalogue,
                                            reader.workspace().registrations()};
-        const auto cast =
-            evaluation::gather_cast(reader, task, planned.performances, shown.methods, told, plan.zones);
+        const auto cast = evaluation::gather_cast(reader, task, performances, shown.methods, told, plan.zones);
         std::vector<Piece> pieces(choice.faces.size());
         base::parallel_for_each(pieces.size(),
                                 [&](std::size_t f) { pieces[f] = piece_of(reader, shown, cast, choice.faces[f]); });

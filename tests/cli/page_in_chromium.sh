@@ -19,4 +19,9 @@ methods = ["thesis", "default", "mean"]
 END
 "$mimik" run faces.toml -o out --quiet >/dev/null
 mkdir pictures
+if can_draw; then
+  for subject in bs000 bs001 bs002; do
+    "$mimik" figure -o pictures/figure_$subject.png work1/faces/$subject/${subject}_N_N_0.ply --size 500x500 --quiet >/dev/null
+  done
+fi
 node "$browser_test" "$chromium" out/report.html pictures

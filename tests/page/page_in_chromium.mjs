@@ -1,11 +1,12 @@
 // page_in_chromium.mjs CHROMIUM REPORT.html FOLDER: the page of an experiment in a browser, from file://. Pictures of it
-// stay in FOLDER.
+// stay in FOLDER. Of a FOLDER/figure_SUBJECT.png, the neutral face as 'mimik figure' draws it, the page's is compared.
 
 import assert from 'node:assert/strict';
-import {writeFileSync} from 'node:fs';
+import {existsSync, readFileSync, writeFileSync} from 'node:fs';
 import {join, resolve} from 'node:path';
 import {pathToFileURL} from 'node:url';
 import {Chromium} from './chromium.mjs';
+import {likeness} from './likeness.mjs';
 
 const [program, file, folder] = process.argv.slice(2);
 const url = pathToFileURL(resolve(file)).href;
@@ -46,7 +47,17 @@ try {
   await page.until(`/shown: [0-9.]+ mm/.test(document.querySelector('#face-panel [role=status]').textContent)`);
   await page.value(`[...document.querySelectorAll('#face-panel button')].find(b => b.textContent === 'Neutral').click()`);
   await page.until(`${largest} === 0`);
-  await keep(page, 'neutral.png');
+  await settle();
+  const box = await page.value(`(() => { const c = document.querySelector('#face-panel canvas'); c.scrollIntoView({behavior: 'instant'}); const {x, y, width, height} = c.getBoundingClientRect(); return {x: x + window.scrollX, y: y + window.scrollY + 40, width, height: height - 40, scale: 1}; })()`);
+  const neutral = Buffer.from((await page.send('Page.captureScreenshot', {format: 'png', clip: box})).data, 'base64');
+  writeFileSync(join(folder, 'neutral.png'), neutral);
+  const figure = join(folder, `figure_${await page.value(`document.querySelector('#face-panel select').value`)}.png`);
+  if (existsSync(figure)) {
+    // Perspective and a turn of a few degrees part the two; another face, or one upside down, overlaps less.
+    const {overlap, light, shape} = await likeness(page, neutral, readFileSync(figure));
+    assert.ok(overlap > 0.9 && light > 0.6 && Math.abs(shape - 1) < 0.08, `overlap ${overlap}, light ${light}, shape ${shape}`);
+    claim(`the page shows the face that a figure shows (overlap ${overlap.toFixed(2)}, lightness ${light.toFixed(2)})`);
+  }
   await page.value(`document.querySelector('#face-panel .slider.chosen input[type=range]').focus()`);
   await page.key('End');
   await page.until(`${largest} > 1`);

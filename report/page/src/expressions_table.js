@@ -14,6 +14,8 @@ export function expressionsTable(page, colours, lead) {
   const fixed = page.data.anchors.map(anchor => {
     const row = {title: anchor.title, anchor: true, all: null};
     for (const code of codes) row[`e${code}`] = anchor.explained[code];
+    const known = codes.map(code => anchor.explained[code]).filter(value => value !== null && value !== undefined);
+    if (known.length) row.all = known.reduce((sum, value) => sum + value, 0) / known.length;
     return row;
   });
   const cell = (row, code, value) => {
@@ -34,6 +36,6 @@ export function expressionsTable(page, colours, lead) {
     ],
     rows, fixed,
   });
-  const bar = element('div', {class: 'bar', 'aria-hidden': 'true'}, '0 or less', element('i', {style: {background: colours.gradient()}}), '1', 'explained');
+  const bar = element('div', {class: 'bar', 'aria-hidden': 'true'}, '0 or less', element('i', {style: {background: colours.gradient()}}), element('span', {}, '1'), element('span', {}, 'explained'));
   return element('div', {}, table, bar);
 }

@@ -16,7 +16,8 @@ export class FacePanel {
     this.faces = new Map(faces.faces.map(packed => [packed.target, new Face(packed, faces.step_mm, faces.no_value)]));
     this.target = faces.faces[0].target;
     this.method = faces.methods.at(-1);
-    this.code = faces.faces[0].expressions[0].code;
+    // The expression that moves the face most is seen first.
+    this.code = faces.faces[0].expressions.reduce((most, e) => (e.nothing.error_mm > most.nothing.error_mm ? e : most)).code;
     this.magnitudes = new Map();
     this.heat = 'none';
     this.zoneOnly = false;
@@ -161,7 +162,7 @@ export class FacePanel {
     const {face, code, method} = this;
     const shape = face.shape(code, method), label = this.page.label(code);
     const nothing = face.expression(code).nothing.error_mm;
-    this.what.textContent = this.real ? `${this.target}: ${this.page.data.synthetic ? 'synthetic' : 'real'} scan of ${label}` : `${this.target}: ${method}${shape?.source ? ` from ${shape.source}` : ''}`;
+    this.what.textContent = this.real ? `${this.target}: ${this.page.data.synthetic ? 'synthetic' : 'real'} scan of ${label}` : `${this.target}: ${method}${shape?.source && shape.source !== 'mean' ? ` from ${shape.source}` : ''}`;
     this.canvas.setAttribute('aria-label', `${this.what.textContent}, ${label}`);
     const score = shape ? `${label} at 1: ${shown(shape.error_mm, 2)} mm off the real scan in the zone, doing nothing ${shown(nothing, 2)} mm, explained ${shown(1 - shape.error_mm / nothing, 2)}.` : `${method} has no answer for ${label}.`;
     const lost = known === false ? ' The distance is known for the chosen expression alone at 1, and for the neutral face: grey.' : '';

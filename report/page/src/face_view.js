@@ -36,11 +36,11 @@ class FaceView {
   }
   light() {
     // As in figures: a key from above on the left, weak ones that keep the shadows open; they stand with the camera.
-    const key = new DirectionalLight(0xffffff, 1.9), fill = new DirectionalLight(0xffffff, 0.5);
+    const key = new DirectionalLight(0xffffff, 2.2), fill = new DirectionalLight(0xffffff, 0.5);
     key.position.set(-0.6, 0.9, 1);
     fill.position.set(1, -0.2, 0.8);
     this.camera.add(key, fill);
-    this.sky = new HemisphereLight(0xffffff, 0xb0a8a0, 0.9);
+    this.sky = new HemisphereLight(0xffffff, 0xb0a8a0, 0.65);
     this.scene.add(this.camera, this.sky);
   }
   fit() {
@@ -62,18 +62,23 @@ class FaceView {
       const shade = colours?.[v] ?? (bridges[v] ? bridgedSkin : skin);
       for (let k = 0; k < 3; ++k) shades[3 * v + k] = linear(shade[k]);
     }
+    // A geometry of its own for each surface: they have other numbers of vertices.
+    this.geometry.dispose();
+    this.geometry = this.surface.geometry = new BufferGeometry();
     this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.geometry.setAttribute('color', new BufferAttribute(shades, 3));
     this.geometry.setIndex(new BufferAttribute(triangles, 1));
     this.geometry.computeVertexNormals();
     this.geometry.computeBoundingSphere();
-    this.sky.intensity = colours ? 1.7 : 0.9;  // a colour that says a number is shaded less
+    this.sky.intensity = colours ? 1.7 : 0.65;  // a colour that says a number is shaded less
     this.draw();
   }
   /** markers: {position: [x, y, z], colour}. */
   mark(markers) {
     if (this.markers) {
       this.scene.remove(this.markers);
+      this.markers.geometry.dispose();
+      this.markers.material.dispose();
       this.markers.dispose();
     }
     this.markers = new InstancedMesh(new SphereGeometry(1.5, 12, 8), new MeshLambertMaterial(), markers.length);
