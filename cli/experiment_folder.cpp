@@ -216,6 +216,7 @@ void ExperimentFolder::clear() const {
     for (const auto& file : results_in(root_)) fs::remove(file, none);
     for (const auto& file : files_of_shards(root_)) fs::remove(file, none);
     fs::remove(provenance(), none);
+    fs::remove(page(), none);
     for (const auto* folder : {"statistics", "tables", "per_vertex", "shards"})
         fs::remove(root_ / folder, none);  // where empty
 }

@@ -21,6 +21,7 @@ namespace mimik::cli {
 ///   rows.csv, rows.sqlite, scores.json, scores.csv, summary.md, statistics/*.csv, tables/*.tex
 ///   manifest.json     digests of all those: it is there when the run is whole
 ///   provenance.json   command, host and time: the one file that differs from run to run
+///   report.html       the page of all that; it can be made again, so the manifest does not list it
 class ExperimentFolder {
 public:
     explicit ExperimentFolder(std::filesystem::path root) : root_(std::move(root)) {}
@@ -34,6 +35,7 @@ public:
     [[nodiscard]] std::filesystem::path provenance() const { return root_ / "provenance.json"; }
     [[nodiscard]] std::filesystem::path face_digests() const { return root_ / "faces.json"; }
     [[nodiscard]] std::filesystem::path manifest() const { return root_ / "manifest.json"; }
+    [[nodiscard]] std::filesystem::path page() const { return root_ / "report.html"; }
 
     [[nodiscard]] bool whole() const;
     /// Takes the experiment's identity as its own. @throws InputError if another one's is there, saying what differs.

@@ -9,7 +9,9 @@
 
 namespace mimik::cli {
 void add_merge_command(CLI::App& app, int& exit_code);
+void add_report_command(CLI::App& app, int& exit_code);
 }
+
 int main(int argc, char** argv) {
     mimik::cli::prepare_standard_streams();
     CLI::App app{"Mimik puts expressions on 3D face scans and measures how true they are.", "mimik"};
@@ -30,6 +32,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_evaluate_command(app, exit_code);
     mimik::cli::add_run_command(app, exit_code);
     mimik::cli::add_merge_command(app, exit_code);
+    mimik::cli::add_report_command(app, exit_code);
     mimik::cli::add_verify_command(app, exit_code);
     mimik::cli::add_compare_command(app, exit_code);
     mimik::cli::add_tune_command(app, exit_code);

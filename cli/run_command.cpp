@@ -22,6 +22,7 @@
 #include "cli/experiment_folder.h"
 #include "cli/notes.h"
 #include "cli/per_vertex_files.h"
+#include "cli/report_page.h"
 #include "cli/run_steps.h"
 #include "database/known_databases.h"
 #include "database/scan_database.h"
@@ -238,6 +239,23 @@ evaluation::ExperimentReport run_units(const Arguments& arguments, const evaluat
     return evaluation::run_experiment(reader, catalogue, plan, store, watch);
 }
 
+/// The page of the results, where it can be made. What keeps it from being made spoils no result. @return the fault
+std::string make_page(const Arguments& arguments, const ExperimentFolder& folder, const facs::FacsCatalogue& catalogue,
+                      const evaluation::PerformanceReader& reader, const evaluation::ExperimentPlan& plan) {
+    if (const auto missing = why_no_page(); !missing.empty()) {
+        if (!arguments.common.quiet) say_notes({missing});
+        return {};
+    }
+    try {
+        const auto remarks =
+            write_page(folder, fs::path(arguments.file).stem().string(), catalogue, &reader, &plan, {});
+        if (!arguments.common.quiet && !arguments.common.json) say_notes(remarks);
+    } catch (const std::exception& e) {
+        return fmt::format("{}: not made: {}", folder.page().string(), e.what());
+    }
+    return {};
+}
+
 int run(const Arguments& arguments) {
     if (arguments.only_preprocess) return run_only_preprocess(arguments);
     if (!arguments.shard.empty()) return run_shard(arguments);
@@ -290,7 +308,12 @@ int run(const Arguments& arguments) {
     }
     std::error_code none;
     fs::remove(folder.part(), none);
-    return say_result(arguments, folder);
+    std::string no_page;
+    if (!base::is_there(folder.page())) no_page = make_page(arguments, folder, catalogue, reader, experiment.plan);
+    const int code = say_result(arguments, folder);
+    if (no_page.empty()) return code;
+    say_failures({no_page});
+    return exit_done_with_failures;
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# reproduce.sh [--face-model DIR] [--out DIR] [--seed N]: installs what is missing, builds, and runs the main job on faces that Mimik makes
-# itself: a database of 12 subjects, preprocessing, models of the thesis's nine Action Units, animated faces, scores and figures.
-# With --face-model (a clone of ICT-FaceKit) the same on faces from scanned people.
+# reproduce.sh [--face-model DIR] [--out DIR] [--seed N]: installs what is missing, builds, and runs the main job on faces
+# that Mimik makes itself: a database of 12 subjects, preprocessing, models of the thesis's nine Action Units, animated
+# faces, figures, and the experiment of experiments/thesis.toml: all 12 targets, of each the next four subjects as
+# sources (432 of the 1188 pairs of two people and an expression). It ends with the page of the experiment and a sheet of
+# pictures. With --face-model (a clone of ICT-FaceKit) the same on faces from scanned people.
 set -euo pipefail
 stand=$PWD  # where the user stands: relative folders start here
 cd "$(dirname "$0")/.."
@@ -27,18 +29,18 @@ if [ -d "$out" ] && [ -n "$(ls -A "$out")" ] && [ ! -e "$mark" ]; then
   exit 2
 fi
 
-scripts/setup.sh
+scripts/setup.sh --page
 launcher=$(command -v ccache || true)
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1  # clones in other folders share the cache
 # The folder of scripts/test.sh: what the one has built the other need not.
 cmake --preset release ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"}
-cmake --build --preset release --target mimik mimik-figure
+cmake --build --preset release --target mimik mimik-figure report_page
 mimik=$PWD/build/release/bin/mimik
 
 step() { printf '\n[%s/%s] %s\n' "$1" 6 "$2"; }
 mkdir -p "$out"
 touch "$mark"
-rm -rf "$out"/{database,workspace,animated,figures,scores}
+rm -rf "$out"/{database,workspace,animated,figures,scores,thesis}
 mkdir "$out/animated" "$out/figures"
 begin=$SECONDS
 
@@ -71,11 +73,19 @@ for folder in "$out"/database/bs*; do
 done
 "$mimik" figure -o "$out/figures/subjects.png" --title "Synthetic subjects, a neutral scan each" --columns 6 --size 260x320 --quiet "${neutrals[@]}" "${captions[@]}"
 
-step 5 "Score thesis, default and mean beside doing nothing, on every ordered pair of subjects"
-"$mimik" evaluate "$out/workspace" -o "$out/scores"
+step 5 "Run experiments/thesis.toml: six methods beside doing nothing and the true fields"
+"$mimik" run experiments/thesis.toml --workspace "$out/workspace" -o "$out/thesis"
 
-step 6 "Check the scans that were made, as 'mimik scans --check' does"
+step 6 "Draw the sheet of pictures, and check the scans as 'mimik scans --check' does"
+sheet=()
+for au in 4 12 15 12L; do
+  by() { echo "$out/figures/AU${au}_$1/target_$2.ply"; }
+  sheet+=("$(by "${source}_on_${target}_default" neutral)" --caption "AU $au: neutral"
+    "$(by "${source}_on_${target}_thesis" animated)" --caption "thesis" "$(by "${source}_on_${target}_default" animated)" --caption "default"
+    "$(by "mean_on_${target}_default" animated)" --caption "mean" "$(by "${source}_on_${target}_default" real)" --caption "synthetic scan")
+done
+"$mimik" figure -o "$out/figures/sheet.png" --title "$target by three methods (synthetic faces)" --columns 5 --size 260x320 --quiet "${sheet[@]}"
 "$mimik" scans "$out/database" --check --no-index --quiet | tail -n 3 || true
 
-printf '\nDone in %d s. Table: %s  Figures: %s  Faces: %s  Database: %s  Program: %s\n' $((SECONDS - begin)) \
-  "$out/scores/scores.md" "$out/figures/" "$out/animated/" "$out/database/" "$mimik"
+printf '\nDone in %d s. Page: %s  Sheet: %s  Faces: %s  Database: %s  Program: %s\n' $((SECONDS - begin)) \
+  "$out/thesis/report.html" "$out/figures/sheet.png" "$out/animated/" "$out/database/" "$mimik"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# setup.sh [--check] [--bench] [--adapters]: installs the Debian 12 packages that Mimik is built and run with; does
-# nothing where they are there. --check adds what scripts/check.sh needs (clang tools), --bench what scripts/bench.sh
-# compares with, --adapters the two libraries of adapters/ and companions/ that nothing else needs. Needs root or sudo to
-# install.
+# setup.sh [--check] [--bench] [--adapters] [--page] [--browser]: installs the Debian 12 packages that Mimik is built and
+# run with; does nothing where they are there. --check adds what scripts/check.sh needs (clang tools), --bench what scripts/bench.sh
+# compares with, --adapters the two libraries of adapters/ and companions/ that nothing else needs, --page npm where none
+# is on the PATH: it bundles the page of an experiment; --browser what tests that page. Needs root or sudo to install.
 set -euo pipefail
 
 packages=(
@@ -12,7 +12,7 @@ packages=(
   libeigen3-dev libtbb-dev libboost-dev libcgal-dev libgmp-dev libnanoflann-dev libembree-dev libhwy-dev
   # files, options, the scan index
   libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libpng-dev libjpeg62-turbo-dev zlib1g-dev
-  libpugixml-dev liblzf-dev libsqlite3-dev
+  libpugixml-dev liblzf-dev libsqlite3-dev libkainjow-mustache-dev
   # figures: VTK, an OpenGL that needs no display, and letters; xvfb is the second way where EGL is missing
   libvtk9-dev libgl-dev libegl-dev libx11-dev libegl1 libegl-mesa0 libgl1-mesa-dri xvfb fonts-dejavu-core
   # tests
@@ -27,7 +27,9 @@ for option in "$@"; do
     --check) packages+=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev llvm-14) ;;
     --bench) packages+=(libbenchmark-dev libpcl-dev python3-numpy python3-scipy) ;;
     --adapters) packages+=(libpcl-dev libopencv-dev) ;;
-    *) echo "setup.sh: there is no option '$option'; there are --check, --bench and --adapters" >&2; exit 2 ;;
+    --page) command -v npm >/dev/null || packages+=(nodejs npm) ;;
+    --browser) packages+=(chromium) ;;
+    *) echo "setup.sh: there is no option '$option'; there are --check, --bench, --adapters, --page and --browser" >&2; exit 2 ;;
   esac
 done
 
