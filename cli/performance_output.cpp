@@ -92,7 +92,8 @@ void check_performance_output(const std::filesystem::path& output) {
         throw InputError(fmt::format("{}: a performance is written as .glb, .mp4 or pictures in a folder, not '{}'",
                                      output.string(), kind));
     }
-    base::check_takes_files(kind.empty() ? output : output.parent_path());
+    const auto folder = kind.empty() ? output : output.parent_path();
+    if (!folder.empty()) base::check_takes_files(folder);
 }
 
 std::vector<std::string> write_performance(const std::filesystem::path& output, const Performance& performance,

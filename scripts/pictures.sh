@@ -193,6 +193,35 @@ awk 'BEGIN { n = split("A B C D E", who, " "); split("2 0 1 1 1", drawn, " ")
   print "<text x=\"285\" y=\"343\" fill=\"#333333\">what a pair weighs: both counts multiplied</text>"
   print "</svg>" }' >made/statistics.svg
 
+# The weights of three examples and of a face at rest on a line: hyperplanes, and what bells make of them.
+awk '
+  function bell(x) { x = x < 0 ? -x : x; return x >= 2 ? 0 : x >= 1 ? (2 - x) ^ 3 / 6 : 2 / 3 - x * x + x ^ 3 / 2 }
+  function at_x(p) { return 60 + 128 * (p + 2.1) }
+  function at_y(w) { return 216 - 140 * w }
+  function line(i, p) { return mean[i] + slope[i] * (p - middle) }
+  function weight(i, p,   j, w) { w = line(i, p); for (j = 1; j <= 4; ++j) w += r[j, i] * bell((p - c[j]) / width[j]); return w }
+  BEGIN {
+    split("-1.4 0.9 1.9 0", c, " "); split("frown smile laugh rest", name, " "); split("#1f77b4 #d62728 #2ca02c #888888", colour, " ")
+    for (j = 1; j <= 4; ++j) { middle += c[j] / 4
+      for (k = 1; k <= 4; ++k) { d = c[j] - c[k]; d = d < 0 ? -d : d; if (j != k && (!(j in width) || d < width[j])) width[j] = d } }
+    for (j = 1; j <= 4; ++j) spread += (c[j] - middle) ^ 2
+    for (i = 1; i <= 3; ++i) { mean[i] = 1 / 4; slope[i] = (c[i] - middle) / spread
+      for (j = 1; j <= 4; ++j) { b[j] = (i == j) - line(i, c[j]); for (k = 1; k <= 4; ++k) m[j, k] = bell((c[j] - c[k]) / width[k]) }
+      for (k = 1; k <= 4; ++k) for (j = 1; j <= 4; ++j) if (j != k) { f = m[j, k] / m[k, k]; b[j] -= f * b[k]; for (l = 1; l <= 4; ++l) m[j, l] -= f * m[k, l] }
+      for (k = 1; k <= 4; ++k) r[k, i] = b[k] / m[k, k] }
+    print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 720 330\" width=\"720\" height=\"330\" font-family=\"DejaVu Sans, Arial, sans-serif\" font-size=\"14\" text-anchor=\"middle\">"
+    print "<rect width=\"720\" height=\"330\" fill=\"#ffffff\"/>"
+    for (w = 0; w <= 1; ++w) { printf "<line x1=\"60\" y1=\"%d\" x2=\"680\" y2=\"%d\" stroke=\"#d0d0d0\"/>\n<text x=\"42\" y=\"%d\" fill=\"#333333\">%d</text>\n", at_y(w), at_y(w), at_y(w) + 5, w }
+    for (j = 1; j <= 4; ++j) { printf "<line x1=\"%.1f\" y1=\"40\" x2=\"%.1f\" y2=\"272\" stroke=\"%s\" stroke-dasharray=\"2 4\"/>\n<text x=\"%.1f\" y=\"292\" fill=\"%s\">%s</text>\n", at_x(c[j]), at_x(c[j]), colour[j], at_x(c[j]), colour[j], name[j] }
+    for (i = 1; i <= 3; ++i) {
+      printf "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-dasharray=\"7 5\"/>\n<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"2.5\" points=\"", at_x(-2.1), at_y(line(i, -2.1)), at_x(2.7), at_y(line(i, 2.7)), colour[i], colour[i]
+      for (p = -2.1; p < 2.705; p += 0.05) printf "%.1f,%.1f ", at_x(p), at_y(weight(i, p))
+      print "\"/>"
+      for (j = 1; j <= 4; ++j) printf "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\"/>\n", at_x(c[j]), at_y(weight(i, c[j])), i == j ? 5 : 3, colour[i] }
+    print "<text x=\"370\" y=\"318\" fill=\"#333333\">place in the parameter space: a performer on the way from frown to laugh</text>"
+    print "<text transform=\"translate(20 146) rotate(-90)\" fill=\"#333333\">weight</text>"
+    print "</svg>" }' >made/expression_mapping.svg
+
 for picture in made/*.png; do pngquant --force --ext .png --nofs --speed 1 256 "$picture"; done
 cd - >/dev/null
 for picture in docs/images/*; do

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# perform.sh MIMIK FOLDER: examples of the built-in face are made, and a performer's table moves them.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
+
+"$mimik" examples built-in -o face --example smile=12 --example open=27 --example brows_up=1+2 --json --quiet >made.json
+python3 - made.json <<'CHECK' || fail "the examples: $(cat made.json)"
+import json, sys
+d = json.load(open(sys.argv[1]))
+assert d["features"] == 48, d["features"]
+assert [e["name"] for e in d["examples"]] == ["smile", "open", "brows_up"]
+assert all(e["largest_displacement_mm"] > 2 for e in d["examples"]), d["examples"]
+CHECK
+for file in neutral.ply smile.ply open.ply brows_up.ply features.csv examples.toml; do
+  [ -s "face/$file" ] || fail "$file is not there"
+done
+claim "examples are meshes, a list and a table of features"
+
+# A performer who is at rest for 20 frames and then does each example in turn; a lost frame between.
+python3 - face/features.csv motion.csv <<'MAKE'
+import csv, sys
+rows = list(csv.reader(open(sys.argv[1])))
+names = [c[:-2] for c in rows[0][1::3]]
+table = {r[0]: [float(x) for x in r[1:]] for r in rows[1:]}
+with open(sys.argv[2], "w") as out:
+    out.write("# mimik motion, schema 1, rate_hz 25\n")
+    out.write("frame,time,state,confidence,rx,ry,rz,tx,ty,tz")
+    for n in names: out.write("".join(f",{n}_{a}" for a in "uvxyz"))
+    out.write("\n")
+    for f, who in enumerate(["neutral"] * 20 + ["smile", None, "open", "brows_up"]):
+        out.write(f"{f},{f / 25},{'tracked' if who else 'lost'},{1 if who else 0},,,,,,")
+        for k in range(len(names)):
+            out.write(",,," + (",".join(str(x) for x in table[who][3 * k:3 * k + 3]) if who else ",,"))
+        out.write("\n")
+MAKE
+"$mimik" perform motion.csv --examples face --source-examples face/features.csv -o out.glb --weights w.csv --json >out.json
+python3 - out.json w.csv out.glb <<'CHECK' || fail "the performance: $(cat out.json w.csv)"
+import csv, json, struct, sys
+d = json.load(open(sys.argv[1]))
+assert d["frames"] == 24 and d["lost"] == 1 and d["rate_hz"] == 25, d
+rows = list(csv.DictReader(open(sys.argv[2])))
+for frame, who in ((5, None), (20, "smile"), (22, "open"), (23, "brows_up")):
+    for name in ("smile", "open", "brows_up"):
+        assert abs(float(rows[frame][name]) - (1 if name == who else 0)) < 2e-6, (frame, rows[frame])
+assert rows[21]["state"] == "lost" and abs(float(rows[21]["smile"]) - 1) < 2e-6, rows[21]
+glb = open(sys.argv[3], "rb").read()
+j = json.loads(glb[20:20 + struct.unpack("<I", glb[12:16])[0]])
+assert j["meshes"][0]["extras"]["targetNames"] == ["smile", "open", "brows_up"]
+sampler = j["animations"][0]["samplers"][0]
+assert j["accessors"][sampler["input"]]["count"] == 24 and j["accessors"][sampler["output"]]["count"] == 72
+CHECK
+claim "weights are exact at the examples, held while the face is lost, and move the shapes of a GLB"
+
+"$mimik" perform motion.csv --examples face --key smile=20 --key open=22 -o out2.glb --weights w2.csv --gain 0.5 >said.txt 2>notes.txt
+grep -q "nothing drives brows_up" notes.txt || fail "$(cat notes.txt)"
+awk -F, 'NR == 22 { exit !($4 > 0.4999 && $4 < 0.5001) }' w2.csv || fail "$(cat w2.csv)"
+"$mimik" perform motion.csv --examples face -o frames --size 64 --quiet >/dev/null
+[ "$(ls frames | wc -l)" = 24 ] && [ -s frames/frame_000023.png ] || fail "frames"
+cmp -s frames/frame_000000.png frames/frame_000001.png || fail "a face at rest moves"
+! cmp -s frames/frame_000000.png frames/frame_000022.png || fail "an open mouth is not seen"
+claim "key frames are examples of the performer's own; pictures are written"
+
+printf 'Timecode,BlendShapeCount,JawOpen,MouthSmileLeft\n10:00:00:00,2,0.5,0\n10:00:00:01,0\n' >link.csv
+expect_code 2 "no example stands for a shape of the motion" "$mimik" perform link.csv --examples face -o out3.glb
+sed -i 's/^file = "open.ply"/&\narkit = ["jawOpen"]/' face/examples.toml
+"$mimik" perform link.csv --examples face -o out3.glb --weights w3.csv --quiet >/dev/null
+awk -F, 'NR == 2 { exit !($4 == 0.5) }' w3.csv || fail "$(cat w3.csv)"
+claim "a telephone's weights drive the examples that stand for them"
+
+expect_code 2 "motion.csv: frames 30 to 30 are not all in a motion of 24 frames" \
+  "$mimik" perform motion.csv --examples face --neutral 30 -o out4.glb
+expect_code 2 "out.mov: a performance is written as .glb, .mp4 or pictures in a folder" \
+  "$mimik" perform motion.csv --examples face -o out.mov
+expect_code 2 "smile=21: the face is lost there" "$mimik" perform motion.csv --examples face --key smile=21 -o out4.glb
+expect_code 2 "take.csv: 'a,b' is no header of a motion" \
+  bash -c 'echo a,b >take.csv && exec "$0" perform take.csv --examples face -o out4.glb' "$mimik"
+[ ! -e out4.glb ] || fail "a file for nothing"
+claim "what is wrong is named"
