@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
@@ -49,6 +50,10 @@ public:
                          options_.inside * level_.intensity.sample(at + off) - options_.edge * level_.edge.sample(at);
             }
             sum += along / static_cast<double>(samples_.size());
+            for (const bool last : {false, true}) {
+                const auto [from, way] = cap(group, member, last);
+                sum += 0.5 * options_.cap * (level_.intensity.sample(from + way) - level_.intensity.sample(from - way));
+            }
         }
         return sum / static_cast<double>(group.curves.size()) + stay(group);
     }
@@ -64,19 +69,34 @@ public:
                                     options_.edge * gradient_at(level_.edge, at);
                 for (std::size_t k = 0; k < 4; ++k) sum[member.point[k]] += share * sample.b[k] * force;
             }
+        for (const auto& member : group.curves)
+            for (const bool last : {false, true}) {
+                const auto [from, way] = cap(group, member, last);
+                sum[member.point[last ? 3 : 0]] +=
+                    0.5 * options_.cap / static_cast<double>(group.curves.size()) *
+                    (gradient_at(level_.intensity, from + way) - gradient_at(level_.intensity, from - way));
+            }
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += 2 * stay_weight() * (group.points[k] - start_[k]);
         return sum;
     }
 
 private:
-    [[nodiscard]] static Pixel place(const SnakeGroup& group, const SnakeGroup::Member& member,
-                                     const Sample& sample) {
+    [[nodiscard]] static Pixel place(const SnakeGroup& group, const SnakeGroup::Member& member, const Sample& sample) {
         Pixel at = Pixel::Zero();
         for (std::size_t k = 0; k < 4; ++k) at += sample.b[k] * group.points[member.point[k]];
         return at;
     }
     [[nodiscard]] Pixel offset(const SnakeGroup::Member& member, const Sample& sample) const {
         return {0, member.inside * sample.shift * options_.offset_px};
+    }
+    /// An end of a curve, and the way beyond it.
+    [[nodiscard]] std::pair<Pixel, Pixel> cap(const SnakeGroup& group, const SnakeGroup::Member& member,
+                                              bool last) const {
+        const Pixel end = group.points[member.point[last ? 3 : 0]];
+        const Pixel chord = group.points[member.point[3]] - group.points[member.point[0]];
+        const double length = chord.norm();
+        const Pixel way = length > 0 ? Pixel((last ? 1 : -1) * options_.offset_px / length * chord) : Pixel::Zero();
+        return {end, way};
     }
     [[nodiscard]] double stay_weight() const {
         return options_.stay / (options_.offset_px * options_.offset_px * static_cast<double>(start_.size()));
@@ -92,6 +112,21 @@ private:
     const SnakeOptions& options_;
     std::vector<Sample> samples_;
 };
+
+/// What is left of a step when points keep their places along the curves: up and down each for itself, sideways and in
+/// width all together.
+void make_upright(const std::vector<Pixel>& points, std::vector<Pixel>& ways) {
+    double middle = 0, shift = 0, stretch = 0, spread = 0;
+    const auto count = static_cast<double>(points.size());
+    for (const auto& p : points) middle += p.x() / count;
+    for (const auto& w : ways) shift += w.x() / count;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        stretch += ways[k].x() * (points[k].x() - middle);
+        spread += (points[k].x() - middle) * (points[k].x() - middle);
+    }
+    if (spread > 0) stretch /= spread;
+    for (std::size_t k = 0; k < points.size(); ++k) ways[k].x() = shift + stretch * (points[k].x() - middle);
+}
 
 double longest(const std::vector<Pixel>& ways) {
     double most = 0;
@@ -110,6 +145,7 @@ void SnakeOptions::check() const {
     least("outside", outside, 0);
     least("offset_px", offset_px, 0.1);
     least("stay", stay, 0);
+    least("cap", cap, 0);
     least("samples", samples, 2);
     least("steps", steps, 0);
 }
@@ -165,7 +201,8 @@ double minimise_snake(SnakeGroup& group, std::span<const SnakeLevel> levels, con
         energy = descent.energy(group);
         double step_px = 1.5;
         for (int s = 0; s < options.steps && step_px > 0.03; ++s) {
-            const auto down = descent.gradient(group);
+            auto down = descent.gradient(group);
+            if (options.upright) make_upright(group.points, down);
             const double most = longest(down);
             if (!(most > 1e-9)) break;
             SnakeGroup tried = group;

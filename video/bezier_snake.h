@@ -16,10 +16,17 @@ struct SnakeOptions {
     double inside = 1.0;     ///< w_in of Eq. 4
     double outside = 0.7;    ///< w_out of Eq. 4; smaller than w_in, so that a wrong edge costs energy
     double offset_px = 3.5;  ///< by which the offset curves lie beside the curve in its middle
-    double stay = 0.02;      ///< times the square of the way from the start, in units of offset_px: not in the paper;
-                             ///< it holds a curve where the image shows nothing
-    int samples = 12;        ///< along a curve
-    int steps = 24;          ///< downhill, on each level
+    /// Times the square of the way from the start, in units of offset_px: not in the paper. It holds a curve where the
+    /// image shows nothing.
+    double stay = 0.15;
+    /// On what the ends of a closed outline see along the curve, I beyond less I within: not in the paper. Without it
+    /// curves shrink to where the contrast is best.
+    double cap = 0.35;
+    /// Control points move up and down alone, and the group moves sideways and widens as a whole; false: each goes
+    /// where its gradient points.
+    bool upright = true;
+    int samples = 12;  ///< along a curve
+    int steps = 24;    ///< downhill, on each level
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
         visit("edge", self.edge);
@@ -27,6 +34,8 @@ struct SnakeOptions {
         visit("outside", self.outside);
         visit("offset_px", self.offset_px);
         visit("stay", self.stay);
+        visit("cap", self.cap);
+        visit("upright", self.upright);
         visit("samples", self.samples);
         visit("steps", self.steps);
     }

@@ -20,8 +20,7 @@ std::vector<std::uint32_t> row_between(const Sheet& sheet, std::uint32_t row, do
         const auto& vertex = sheet.vertices[i];
         if (vertex.row == row && vertex.s > from - 1e-9 && vertex.s < to + 1e-9) line.push_back(i);
     }
-    std::sort(line.begin(), line.end(),
-              [&](auto a, auto b) { return sheet.vertices[a].s < sheet.vertices[b].s; });
+    std::sort(line.begin(), line.end(), [&](auto a, auto b) { return sheet.vertices[a].s < sheet.vertices[b].s; });
     return line;
 }
 
@@ -86,15 +85,8 @@ void add_curves(const Sheet& sheet, BuiltinFeatureLines& lines) {
 }
 
 void add_jaw_and_nose(const Sheet& sheet, BuiltinFeatureLines& lines) {
-    constexpr std::array<std::array<double, 2>, 9> jaw = {{{100, -8},
-                                                           {98, -32},
-                                                           {95, -58},
-                                                           {91, -84},
-                                                           {80, -104},
-                                                           {62, -116},
-                                                           {42, -120},
-                                                           {21, -121},
-                                                           {0, -121}}};
+    constexpr std::array<std::array<double, 2>, 9> jaw = {
+        {{100, -8}, {98, -32}, {95, -58}, {91, -84}, {80, -104}, {62, -116}, {42, -120}, {21, -121}, {0, -121}}};
     for (std::size_t k = 0; k < jaw.size(); ++k) {
         lines.points[k] = sheet.nearest(-jaw[k][0], jaw[k][1]);
         lines.points[16 - k] = sheet.nearest(jaw[k][0], jaw[k][1]);

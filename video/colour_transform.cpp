@@ -49,15 +49,11 @@ void normalise(FloatImage& image, double top_share) {
     for (auto& value : image.values) value = (value - low) * scale;
 }
 
-struct Levels {
-    float saturation = 0, magenta = 0;
-};
-
 }  // namespace
 
 double lip_hue(double hue_deg) {
     double away = std::fmod(hue_deg - 352 + 540, 360) - 180;  // from 352 degrees, -180 to 180
-    if (away > 0) away *= 1.4;                                 // skin lies beyond, at 15 to 35 degrees
+    if (away > 0) away *= 1.4;                                // skin lies beyond, at 15 to 35 degrees
     return std::exp(-0.5 * away * away / (14.0 * 14.0));
 }
 
@@ -85,49 +81,56 @@ ColourChannels channels_of(double red, double green, double blue) {
     return c;
 }
 
-FeatureMaps transform_colours(const io::Image& patch, const ColourWeights& weights) {
-    FeatureMaps maps;
-    FloatImage value(patch.width, patch.height), light(patch.width, patch.height);
-    maps.feature = maps.eye = maps.mouth = value;
+ColourComponents components_of(const io::Image& patch) {
+    ColourComponents made;
+    for (auto* image : {&made.magenta, &made.black, &made.value, &made.hue, &made.saturation})
+        *image = FloatImage(patch.width, patch.height);
+    FloatImage light(patch.width, patch.height);
     const auto byte = [&](std::size_t k, std::size_t c) { return patch.rgb[3 * k + c] / 255.0F; };
-    for (std::size_t k = 0; k < value.values.size(); ++k)
-        value.values[k] = std::max({byte(k, 0), byte(k, 1), byte(k, 2)});
+    auto& value = made.value.values;
+    for (std::size_t k = 0; k < value.size(); ++k) value[k] = std::max({byte(k, 0), byte(k, 1), byte(k, 2)});
     // Slowly changing light: a wide blur of a small copy.
-    cv::Mat small;
-    cv::resize(matrix_of(value), small, cv::Size(patch.width / 8, patch.height / 8), 0, 0, cv::INTER_AREA);
+    cv::Mat small, wide = matrix_of(light);
+    cv::resize(matrix_of(made.value), small, cv::Size(patch.width / 8, patch.height / 8), 0, 0, cv::INTER_AREA);
     cv::GaussianBlur(small, small, cv::Size(), 4.5);
-    cv::Mat wide = matrix_of(light);
     cv::resize(small, wide, wide.size(), 0, 0, cv::INTER_LINEAR);
-    FloatImage saturation(patch.width, patch.height), magenta(patch.width, patch.height);
-    for (std::size_t k = 0; k < value.values.size(); ++k) {
+    for (std::size_t k = 0; k < value.size(); ++k) {
         const auto c = channels_of(byte(k, 0), byte(k, 1), byte(k, 2));
         const double level = c.value / std::max(0.05F, light.values[k]);
-        // Hue says nothing where there is no colour.
         const double coloured = std::clamp(4 * (c.saturation - 0.08), 0.0, 1.0);
-        maps.feature.values[k] = static_cast<float>(weights.magenta * c.magenta * coloured +
-                                                    weights.black * std::clamp(1.1 - level, 0.0, 1.0) +
-                                                    weights.value * std::min(level, 1.4) +
-                                                    weights.hue * lip_hue(c.hue_deg) * coloured);
-        value.values[k] = static_cast<float>(level);
-        saturation.values[k] = static_cast<float>(c.saturation);
-        magenta.values[k] = static_cast<float>(c.magenta);
+        made.magenta.values[k] = static_cast<float>(c.magenta * coloured);
+        made.black.values[k] = static_cast<float>(std::clamp(1.1 - level, 0.0, 1.0));
+        made.hue.values[k] = static_cast<float>(lip_hue(c.hue_deg) * coloured);
+        made.saturation.values[k] = static_cast<float>(c.saturation);
+        value[k] = static_cast<float>(std::min(level, 1.4));
     }
+    return made;
+}
+
+FeatureMaps transform_colours(const io::Image& patch, const ColourWeights& weights) {
+    const auto parts = components_of(patch);
+    FeatureMaps maps;
+    maps.feature = maps.eye = maps.mouth = FloatImage(patch.width, patch.height);
     std::vector<float> skin_saturation, skin_level;
     over_pixels(2, [&](int x, int y) {
         if (!is_cheek(x, y)) return;
-        skin_saturation.push_back(saturation.at(x, y));
-        skin_level.push_back(value.at(x, y));
+        skin_saturation.push_back(parts.saturation.at(x, y));
+        skin_level.push_back(parts.value.at(x, y));
     });
     const float usual_saturation = std::max(0.05F, quantile(skin_saturation, 0.4));
     const float usual_level = quantile(skin_level, 0.5);
-    for (std::size_t k = 0; k < value.values.size(); ++k) {
-        const float dark = std::max(0.0F, usual_level - value.values[k]);
-        const float pale = std::max(0.0F, (usual_saturation - saturation.values[k]) / usual_saturation);
+    const auto magenta = static_cast<float>(weights.magenta), black = static_cast<float>(weights.black);
+    const auto value = static_cast<float>(weights.value), hue = static_cast<float>(weights.hue);
+    for (std::size_t k = 0; k < maps.feature.values.size(); ++k) {
+        maps.feature.values[k] = magenta * parts.magenta.values[k] + black * parts.black.values[k] +
+                                 value * parts.value.values[k] + hue * parts.hue.values[k];
+        const float dark = std::max(0.0F, usual_level - parts.value.values[k]);
+        const float pale = std::max(0.0F, (usual_saturation - parts.saturation.values[k]) / usual_saturation);
         maps.eye.values[k] = dark + 0.35F * pale;
         maps.mouth.values[k] = 1.3F * std::max(0.0F, dark - 0.12F) + 0.5F * std::max(0.0F, pale - 0.15F);
     }
     normalise(maps.feature, 0.97);
-    for (auto& v : maps.feature.values) v = static_cast<float>(contrast(v) + std::min(0.0F, v) * 0.3);
+    for (auto& v : maps.feature.values) v = static_cast<float>(contrast(v)) + 0.3F * std::min(0.0F, v);
     normalise(maps.eye, 0.97);
     normalise(maps.mouth, 0.985);
     return maps;

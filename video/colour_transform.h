@@ -24,13 +24,20 @@ struct ColourChannels {
 };
 [[nodiscard]] ColourChannels channels_of(double red, double green, double blue);
 
+/// The four components of Eq. 1 of every pixel of a patch, and its saturation. Light that changes slowly over the face
+/// is divided out first; where there is no colour, M and G(H) are 0.
+struct ColourComponents {
+    FloatImage magenta, black, value, hue, saturation;
+};
+[[nodiscard]] ColourComponents components_of(const io::Image& patch);
+
 /// What stands out from the skin in a patch, 0 on skin to about 1.
 struct FeatureMaps {
     FloatImage feature;  ///< Eq. 1 with its contrast: brows, lashes, nostrils, lips
     FloatImage eye;      ///< lashes, iris and the white: all that lies between the lids
     FloatImage mouth;    ///< what is between the lips: darkness and teeth
 };
-/// Light that changes slowly over the face is divided out first. The level of skin is the median over nose and cheeks.
+/// The level of skin is the median over nose and cheeks.
 /// @param patch  of cut_patch()
 [[nodiscard]] FeatureMaps transform_colours(const io::Image& patch, const ColourWeights& weights = {});
 

@@ -72,7 +72,7 @@ struct FaceCurves {
 
 /// Where on the curves one of the 68 points lies: at parameter `t` of one, or in the middle between two.
 struct PlaceOnCurves {
-    int point = 0;  ///< 0 to 67
+    int point = 0;                                                  ///< 0 to 67
     FaceCurve first = FaceCurve::count, second = FaceCurve::count;  ///< second = first: one curve alone
     double t = 0;
 };

@@ -14,8 +14,7 @@ struct FloatImage {
     std::vector<float> values;
 
     FloatImage() = default;
-    FloatImage(int w, int h)
-        : width(w), height(h), values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+    FloatImage(int w, int h) : width(w), height(h), values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
     [[nodiscard]] float at(int x, int y) const {
         return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
     }

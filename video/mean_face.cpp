@@ -1,5 +1,5 @@
-// The built-in mean face at rest (halfway between the mean woman and the mean man), as numbers: a tracker need not build
-// it. A test holds them to the model.
+// The built-in mean face at rest (halfway between the mean woman and the mean man), as numbers: a tracker need not
+// build it. A test holds them to the model.
 
 #include "video/face_curves.h"
 
@@ -68,8 +68,7 @@ const FaceCurves& mean_face_curves() {
 const std::array<geometry::Point, 68>& mean_face_points68_mm() {
     static const std::array<geometry::Point, 68> mean = [] {
         std::array<geometry::Point, 68> made;
-        for (std::size_t k = 0; k < 68; ++k)
-            made[k] = {points_mm[3 * k], points_mm[3 * k + 1], points_mm[3 * k + 2]};
+        for (std::size_t k = 0; k < 68; ++k) made[k] = {points_mm[3 * k], points_mm[3 * k + 1], points_mm[3 * k + 2]};
         return made;
     }();
     return mean;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -125,10 +124,9 @@ std::vector<Hit> rasterise(const std::vector<Eigen::Vector3d>& camera_mm, const 
                 if (b1 < 0 || b2 < 0 || b1 + b2 > 1) continue;
                 const auto depth = static_cast<float>((1 - b1 - b2) * camera_mm[i].z() + b1 * camera_mm[j].z() +
                                                       b2 * camera_mm[k].z());
-                auto& hit = hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                 static_cast<std::size_t>(x)];
-                if (depth < hit.depth)
-                    hit = {depth, f, static_cast<float>(1 - b1 - b2), static_cast<float>(b1)};
+                auto& hit =
+                    hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+                if (depth < hit.depth) hit = {depth, f, static_cast<float>(1 - b1 - b2), static_cast<float>(b1)};
             }
     }
     return hits;
@@ -141,8 +139,8 @@ void fill_ellipse(cv::Mat& image, const Camera& camera, const Point& centre_mm, 
     std::vector<cv::Point> outline;
     for (int k = 0; k < 64; ++k) {
         const double angle = 2 * EIGEN_PI * k / 64;
-        const auto at = camera.pixel(centre_mm +
-                                     Point(half_width_mm * std::cos(angle), half_height_mm * std::sin(angle), 0));
+        const auto at =
+            camera.pixel(centre_mm + Point(half_width_mm * std::cos(angle), half_height_mm * std::sin(angle), 0));
         outline.emplace_back(static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())));
     }
     cv::fillPoly(image, std::vector<std::vector<cv::Point>>{outline}, scalar(colour));
@@ -226,8 +224,7 @@ struct RenderedPerformance::Parts {
             const auto found = std::lower_bound(subject.shapes.begin(), subject.shapes.end(), shape);
             if (found == subject.shapes.end() || *found != shape)
                 throw InputError(fmt::format("the built-in face has no shape '{}'", shape));
-            const auto& full =
-                subject.shape_displacements_mm[static_cast<std::size_t>(found - subject.shapes.begin())];
+            const auto& full = subject.shape_displacements_mm[static_cast<std::size_t>(found - subject.shapes.begin())];
             for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += weight * full[i];
             contact.left_eye_closed = contact.left_eye_closed || (shape == "eyeBlink_L" && weight > 0.95);
             contact.right_eye_closed = contact.right_eye_closed || (shape == "eyeBlink_R" && weight > 0.95);
@@ -248,10 +245,10 @@ struct RenderedPerformance::Parts {
         };
         constexpr double degree = EIGEN_PI / 180;
         const double yaw = wave(12 * degree, 5), pitch = wave(7 * degree, 4), roll = wave(6 * degree, 6);
-        const Eigen::Matrix3d turn = (Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()) *
-                                      Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitX()) *
-                                      Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()))
-                                         .toRotationMatrix();
+        const Eigen::Matrix3d turn =
+            (Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitX()) *
+             Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()))
+                .toRotationMatrix();
         Camera camera;
         // The head's axes to the camera's, then the turn about a point behind the face, as on a neck.
         camera.rotation = turn * Eigen::Vector3d(1, -1, -1).asDiagonal();
@@ -323,8 +320,8 @@ struct RenderedPerformance::Parts {
         }
         normal.normalize();
         // Some light comes from everywhere; a nostril's rim and the corner of an eye get less of it.
-        const double shade = 0.38 + 0.55 * std::max(0.0, normal.dot(light)) +
-                             0.17 * std::max(0.0, normal.dot(Vector(-0.6, 0.1, 0.79)));
+        const double shade =
+            0.38 + 0.55 * std::max(0.0, normal.dot(light)) + 0.17 * std::max(0.0, normal.dot(Vector(-0.6, 0.1, 0.79)));
         return albedo * shade;
     }
 
@@ -342,18 +339,16 @@ struct RenderedPerformance::Parts {
         const auto normals = geometry::vertex_normals(skin_mm, triangles);
         // The lamps stand still while the head turns: their direction in the head's frame.
         const double swing = 0.5 * std::sin(2 * EIGEN_PI * time_s / 11) * options.light_change;
-        const Vector light =
-            camera.rotation.transpose() * Vector(0.25 + swing, -0.45, -0.86).normalized();
+        const Vector light = camera.rotation.transpose() * Vector(0.25 + swing, -0.45, -0.86).normalized();
         const double level = 1 + options.light_change * std::sin(2 * EIGEN_PI * time_s / 8);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 auto& to = image.at<cv::Vec3f>(y, x);
-                const auto& hit = hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                       static_cast<std::size_t>(x)];
+                const auto& hit =
+                    hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
                 if (hit.triangle != Hit().triangle) {
                     const auto colour = colour_of(hit, skin_mm, normals, light);
-                    to = {static_cast<float>(colour[0]), static_cast<float>(colour[1]),
-                          static_cast<float>(colour[2])};
+                    to = {static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2])};
                 }
                 to *= static_cast<float>(level);
             }
