@@ -65,7 +65,9 @@ TEST(VertexErrors, are_the_distances_whose_mean_is_the_score_and_unknown_where_n
         const auto v = static_cast<std::uint32_t>(place[k]);
         EXPECT_EQ(mesh.vertices_mm[k], neutral.vertices_mm[v] + face.way_mm(v));
         EXPECT_EQ(mesh.attributes[2].values[3 * k + 2], face.way_mm(v).z());
-        if (!std::isnan(error_mm[v])) EXPECT_EQ(mesh.attributes[0].values[k], error_mm[v]);
+        if (!std::isnan(error_mm[v])) {
+            EXPECT_EQ(mesh.attributes[0].values[k], error_mm[v]);
+        }
     }
 }
 
