@@ -48,7 +48,7 @@ try {
   await page.value(`[...document.querySelectorAll('#face-panel button')].find(b => b.textContent === 'Neutral').click()`);
   await page.until(`${largest} === 0`);
   await settle();
-  const box = await page.value(`(() => { const c = document.querySelector('#face-panel canvas'); c.scrollIntoView({behavior: 'instant'}); const {x, y, width, height} = c.getBoundingClientRect(); return {x: x + window.scrollX, y: y + window.scrollY + 40, width, height: height - 40, scale: 1}; })()`);
+  const box = await page.value(`(() => { const c = document.querySelector('#face-panel canvas'); c.scrollIntoView({behavior: 'instant'}); const {x, y, width, height} = c.getBoundingClientRect(); return {x: x + window.scrollX + 12, y: y + window.scrollY + 40, width: width - 24, height: height - 52, scale: 1}; })()`);
   const neutral = Buffer.from((await page.send('Page.captureScreenshot', {format: 'png', clip: box})).data, 'base64');
   writeFileSync(join(folder, 'neutral.png'), neutral);
   const figure = join(folder, `figure_${await page.value(`document.querySelector('#face-panel select').value`)}.png`);

@@ -40,7 +40,7 @@ export class FacePanel {
     this.what = element('p', {class: 'what'});
     this.status = element('p', {role: 'status', class: 'soft'});
     this.bar = element('div', {class: 'bar'});
-    this.marks = element('p', {class: 'soft'}, ...Object.entries({muscle: 'muscle points', wrinkle: 'wrinkle points'}).flatMap(([kind, words]) =>
+    this.marks = element('p', {class: 'soft'}, ...Object.entries({muscle: 'muscle points', wrinkle: 'wrinkle points', carried: 'points carried along'}).flatMap(([kind, words]) =>
       [element('span', {class: 'swatch', style: {background: markerColours[kind]}}), ` ${words} `]));
     this.sliders = element('fieldset', {class: 'sliders'});
     this.notice = element('p', {class: 'notice', hidden: true});
