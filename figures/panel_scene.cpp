@@ -36,7 +36,7 @@ using geometry::Mesh;
 using geometry::Point;
 using geometry::Vector;
 
-constexpr Colour wire = {66, 78, 104};
+constexpr Colour wire = {132, 122, 118};
 constexpr Colour inside_of_skin = {150, 130, 118};
 
 /// A surface in the renderer's form. Everything is per vertex.

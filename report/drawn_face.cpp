@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -37,6 +39,16 @@ void colour_by_origin(Mesh& mesh, const geometry::QuadGrid& grid, HoleDrawing ho
                                                             : filled_colour);
 }
 
+/// The wider lips part, the darker it is between them: a slit of a millimetre or two is no open mouth.
+Colour inside_colour(double longest_mm) {
+    constexpr double closed_mm = 1.5, open_mm = 8;
+    const double t = std::clamp((longest_mm - closed_mm) / (open_mm - closed_mm), 0.0, 1.0);
+    Colour colour{};
+    for (std::size_t k = 0; k < 3; ++k)
+        colour[k] = static_cast<std::uint8_t>(std::lround(figures::skin[k] + t * (mouth_colour[k] - figures::skin[k])));
+    return colour;
+}
+
 /// The quads that a motion tears, each with corners of its own so that its colour stays its own.
 void add_inside_of_mouth(Mesh& mesh, const animation::AnimatedFace& animated, const Face& neutral,
                          const std::vector<Point>& moved_mm) {
@@ -45,11 +57,16 @@ void add_inside_of_mouth(Mesh& mesh, const animation::AnimatedFace& animated, co
     for (std::size_t f = 0; f < all.size(); ++f) {
         corners.assign(all[f].begin(), all[f].end());
         if (!animation::torn(animated, animated.field.mm, corners)) continue;
+        double longest_mm = 0;
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            longest_mm =
+                std::max(longest_mm, (moved_mm[corners[k]] - moved_mm[corners[(k + 1) % corners.size()]]).norm());
+        const auto colour = inside_colour(longest_mm);
         std::vector<std::uint32_t> own;
         for (const auto v : corners) {
             own.push_back(static_cast<std::uint32_t>(mesh.vertices_mm.size()));
             mesh.vertices_mm.push_back(moved_mm[v]);
-            mesh.colours.push_back(mouth_colour);
+            mesh.colours.push_back(colour);
             if (!mesh.texture_coordinates.empty())
                 mesh.texture_coordinates.push_back(neutral.grid.texture_coordinates[v]);
             for (auto& attribute : mesh.attributes)

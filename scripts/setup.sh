@@ -12,9 +12,10 @@ packages=(
   libeigen3-dev libtbb-dev libboost-dev libcgal-dev libgmp-dev libnanoflann-dev libembree-dev libhwy-dev
   # files, options, the scan index
   libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libpng-dev libjpeg62-turbo-dev zlib1g-dev
-  libpugixml-dev liblzf-dev libsqlite3-dev libkainjow-mustache-dev librsvg2-bin
-  # figures: VTK, an OpenGL that needs no display, and letters; xvfb is the second way where EGL is missing
+  libpugixml-dev liblzf-dev libsqlite3-dev libkainjow-mustache-dev
+  # figures: VTK, an OpenGL that needs no display, and letters; xvfb is the second way where EGL is missing; plots as PDF
   libvtk9-dev libgl-dev libegl-dev libx11-dev libegl1 libegl-mesa0 libgl1-mesa-dri xvfb fonts-dejavu-core
+  librsvg2-bin
   # tests
   libgtest-dev libgmock-dev
   # the peers of our statistics (tests/statistics/peers.py): 28 MB to fetch

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -106,23 +107,37 @@ ComparisonRequest by_points(const FigureCast& cast, const std::string& target, c
     return request;
 }
 
+/// What wrinkle points change, mm per vertex: the eye alone hardly sees it.
+figures::Panel difference_panel(const FigureCast& cast, const ShownPerson& without, const ShownPerson& with) {
+    std::vector<std::uint32_t> kept;
+    auto mesh = drawn_animation(with.animated, with.neutral, cast.options().holes, &kept);
+    geometry::VertexAttribute change{"change_mm", 1, {}};
+    for (const auto v : kept)
+        change.values.push_back((with.animated.field.mm[v] - without.animated.field.mm[v]).norm());
+    change.values.resize(mesh.vertices_mm.size(), std::numeric_limits<double>::quiet_NaN());
+    mesh.attributes = {std::move(change)};
+    auto panel = face_panel(std::move(mesh), middle_of(with.neutral), "what they change");
+    panel.scalar = figures::Scalar{.attribute = "change_mm", .label = "change, mm"};
+    return panel;
+}
+
 FigurePlan wrinkle_points(const FigureCast& cast) {
     const auto expression = cast.expression("4");
     FigurePlan plan;
-    plan.picture = page_of(2, fmt::format("{} without and with wrinkle control points", cast.words(expression)));
-    for (const bool wrinkles : {false, true}) {
-        const auto request = by_points(cast, cast.female(), expression, wrinkles);
-        const auto pair = cast.compared(request);
-        auto panel = animated_panel(*pair.target, cast.options().holes,
-                                    wrinkles ? "with wrinkle control points" : "without wrinkle control points");
-        plan.picture.panels.push_back(std::move(panel));
-        plan.caption = fmt::format(
-            "Animated {} with {} of {}, method '{}': muscle control points alone (left), and "
-            "wrinkle control points as well (right).",
-            cast.words(cast.female()), cast.words(expression), request.source, request.method_name);
-    }
+    plan.picture = page_of(3, fmt::format("{} without and with wrinkle control points", cast.words(expression)));
+    const auto request = by_points(cast, cast.female(), expression, true);
+    const auto without = cast.compared(by_points(cast, cast.female(), expression, false));
+    const auto with = cast.compared(request);
+    const auto holes = cast.options().holes;
+    plan.picture.panels = {animated_panel(*without.target, holes, "without wrinkle control points"),
+                           animated_panel(*with.target, holes, "with wrinkle control points"),
+                           difference_panel(cast, *without.target, *with.target)};
     letter_panels(plan.picture);
-    if (cast.options().method == "default")
+    plan.caption = fmt::format(
+        "Animated {} with {} of {}, method '{}': muscle control points alone (a), wrinkle control points as well (b), "
+        "and how far these move every vertex on (c).",
+        cast.words(cast.female()), cast.words(expression), request.source, request.method_name);
+    if (request.method_name != cast.options().method)
         plan.remarks.push_back("by control points alone (sparse): the default method follows every vertex");
     return plan;
 }

@@ -76,8 +76,7 @@ FigurePlan to_expressive_face(const FigureCast& cast) {
     const auto pair = cast.compared(cast.request(source, cast.female(), expression));
     const auto& person = *pair.source;
     FigurePlan plan;
-    plan.picture =
-        page_of(2, fmt::format("Control points of {} followed to the expressive face", cast.words(expression)));
+    plan.picture = page_of(2, fmt::format("Control points of {}, followed", cast.words(expression)));
     auto first = neutral_panel(person, cast.options().holes, "Neutral source face " + source);
     add_markers(first, person.neutral.landmarks, person.controls);
     auto second = real_panel(person, cast.options().holes, "Expressive source face " + source);

@@ -62,10 +62,10 @@ FigurePlan action_units(const FigureCast& cast) {
     for (const auto& expression : expressions) (expression.group() == "UFAU" ? upper : lower).push_back(expression);
     const auto neutral = cast.neutral(cast.source());
     const auto centre_mm = middle_of(neutral);
-    constexpr std::size_t columns = 6;
+    constexpr std::size_t columns = 7;
     FigurePlan plan;
     plan.picture = page_of(columns, "Action Units of the upper face, then of the lower face");
-    plan.picture.font_size_px = 20;
+    plan.picture.font_size_px = 18;
     const auto add = [&](const std::vector<facs::Expression>& units) {
         for (const auto& expression : units)
             plan.picture.panels.push_back(photographed(cast, cast.scan(cast.source(), expression), centre_mm,

@@ -37,11 +37,13 @@ FigurePlan basis_function(const FigureCast&) {
     panel.mesh = square_patch(48, [&](double u, double v) {
         return Point(unit_mm * reach * u, unit_mm * height(reach * u, reach * v), unit_mm * reach * v);
     });
-    geometry::VertexAttribute values{"z", 1, {}};
+    geometry::VertexAttribute values{"height", 1, {}};
     for (const auto& p : panel.mesh.vertices_mm) values.values.push_back(p.y() / unit_mm);
     panel.mesh.attributes.push_back(std::move(values));
-    panel.scalar = figures::Scalar{
-        .attribute = "z", .label = "z = -U(r)", .range = std::array{-0.8, 0.8}, .map = figures::ColourMap::diverging};
+    panel.scalar = figures::Scalar{.attribute = "height",
+                                   .label = "z = -U(r)",
+                                   .range = std::array{-0.8, 0.8},
+                                   .map = figures::ColourMap::diverging};
     panel.wire_frame = true;
     panel.view = {.yaw_deg = 28, .pitch_deg = 32};
     figures::MarkerSet zeros{.name = "zeros: r = 0 and r = 1", .colour = {30, 30, 30}, .radius_mm = 0.9};
