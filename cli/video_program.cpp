@@ -154,6 +154,8 @@ int run_video(int argc, char** argv) {
     // FFmpeg and OpenCV tell of every oddity of a file; what matters is said by us.
     setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
     setenv("OPENCV_LOG_LEVEL", "SILENT", 0);    // NOLINT(concurrency-mt-unsafe)
+    // A patch is too small to share out among threads, and sums are then always added in one order.
+    video::use_one_thread();
     prepare_standard_streams();
     CLI::App app{"Follows a performer's face in video, without markers.", "mimik-video"};
     app.set_help_flag("-h,--help", "Print this help and stop");

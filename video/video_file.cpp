@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -15,6 +16,8 @@
 #include "base/text.h"
 
 namespace mimik::video {
+
+void use_one_thread() { cv::setNumThreads(1); }
 
 struct VideoReader::Parts {
     std::string name;

@@ -8,6 +8,9 @@
 
 namespace mimik::video {
 
+/// OpenCV's functions stay on the thread that calls them.
+void use_one_thread();
+
 /// A video file or a camera, frame after frame, by what OpenCV decodes.
 class VideoReader {
 public:
