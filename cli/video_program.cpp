@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
@@ -154,6 +155,10 @@ int run_video(int argc, char** argv) {
     // FFmpeg and OpenCV tell of every oddity of a file; what matters is said by us.
     setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
     setenv("OPENCV_LOG_LEVEL", "SILENT", 0);    // NOLINT(concurrency-mt-unsafe)
+    // Images of a patch come and go with every frame: their pages stay, so that the system need not clear them anew.
+    constexpr int kept_bytes = 64 << 20;
+    mallopt(M_MMAP_THRESHOLD, kept_bytes);
+    mallopt(M_TRIM_THRESHOLD, kept_bytes);
     // A patch is too small to share out among threads, and sums are then always added in one order.
     video::use_one_thread();
     prepare_standard_streams();

@@ -19,6 +19,8 @@ packages=(
   libgtest-dev libgmock-dev
   # the peers of our statistics (tests/statistics/peers.py): 28 MB to fetch
   python3-scipy python3-statsmodels
+  # faces in video (mimik-video): optional for the build
+  libopencv-dev opencv-data
 )
 for option in "$@"; do
   case "$option" in

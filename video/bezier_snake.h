@@ -26,8 +26,8 @@ struct SnakeOptions {
     /// where its gradient points.
     bool upright = true;
     bool widen = true;  ///< with `upright`: the group may become wider; false: it keeps its width
-    int samples = 12;   ///< along a curve
-    int steps = 24;     ///< downhill, on each level
+    int samples = 10;   ///< along a curve
+    int steps = 16;     ///< downhill, on each level
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
         visit("edge", self.edge);

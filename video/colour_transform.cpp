@@ -40,7 +40,7 @@ void over_pixels(int step, const Use& use) {
 /// 0 on skin, 1 where the face's strongest features are.
 void normalise(FloatImage& image, double top_share) {
     std::vector<float> skin, face;
-    over_pixels(2, [&](int x, int y) {
+    over_pixels(3, [&](int x, int y) {
         if (is_cheek(x, y)) skin.push_back(image.at(x, y));
         if (is_face(x, y)) face.push_back(image.at(x, y));
     });
@@ -120,7 +120,7 @@ FeatureMaps transform_colours(const io::Image& patch, const ColourWeights& weigh
     FeatureMaps maps;
     maps.feature = maps.eye = maps.mouth = FloatImage(patch.width, patch.height);
     std::vector<float> skin_saturation, skin_level;
-    over_pixels(2, [&](int x, int y) {
+    over_pixels(3, [&](int x, int y) {
         if (!is_cheek(x, y)) return;
         skin_saturation.push_back(parts.saturation.at(x, y));
         skin_level.push_back(parts.value.at(x, y));

@@ -53,8 +53,10 @@ TEST(HeadPose, motion_in_the_head_is_free_of_the_heads_own_and_in_mm) {
     const auto pose = head.pose(points, rest);
     ASSERT_TRUE(pose);
     const auto at = head.head_point_mm(57, points[57], *pose);
-    EXPECT_NEAR(at.y() - before.y(), -9, 0.2);
-    EXPECT_NEAR(at.x() - before.x(), 0, 0.2);
+    // The pose comes of seven points: a twentieth of a degree is left of the turn, 0.1 mm at the lip, and some of the
+    // distance, 3 % of the motion.
+    EXPECT_NEAR(at.y() - before.y(), -9, 0.4);
+    EXPECT_NEAR(at.x() - before.x(), 0, 0.4);
 }
 
 TEST(HeadPose, the_performers_size_is_that_of_the_eyes_that_is_given) {
