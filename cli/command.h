@@ -69,6 +69,7 @@ void add_panels_command(CLI::App& app, int& exit_code);
 void add_preprocess_command(CLI::App& app, int& exit_code);
 void add_register_command(CLI::App& app, int& exit_code);
 void add_mocap_command(CLI::App& app, int& exit_code);
+void add_capture_command(CLI::App& app, int& exit_code);
 void add_regions_command(CLI::App& app, int& exit_code);
 void add_model_command(CLI::App& app, int& exit_code);
 void add_animate_command(CLI::App& app, int& exit_code);

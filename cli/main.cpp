@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_warp_command(app, exit_code);
     mimik::cli::add_distance_command(app, exit_code);
     mimik::cli::add_mocap_command(app, exit_code);
+    mimik::cli::add_capture_command(app, exit_code);
     mimik::cli::add_examples_command(app, exit_code);
     mimik::cli::add_perform_command(app, exit_code);
     mimik::cli::add_regions_command(app, exit_code);

@@ -103,6 +103,11 @@ draw dense --columns 5 --size 220x290 --font-size 17 $panel/target_neutral.ply d
 draw surface_distance --columns 2 --size 340x400 target_animated.vtp back.vtp --scalar distance_mm --range 0 4 --label "distance, mm" \
   --caption "animated face to scan" --caption "scan to animated face"
 
+# A rendered performance and the curves that the tracker found.
+video=$(dirname "$mimik")/mimik-video
+"$video" render -o performance --frames 10 --fps 8 --seed 1 >/dev/null
+"$video" track performance.mp4 -o performance.csv --neutral 0:2 --sheet made/video_capture.png --quiet >/dev/null
+
 # Control points of the mean, with their displacements.
 "$mimik" model work --source mean --expression 12,4,15 -o models --quiet >/dev/null
 panels=

@@ -22,6 +22,8 @@ packages=(
   python3-scipy python3-statsmodels
   # a Slurm of its own for tests/cli/slurm.sh: 3 MB to fetch
   slurmctld slurmd slurm-client munge
+  # faces in video (mimik-video): optional for the build
+  libopencv-dev opencv-data
 )
 for option in "$@"; do
   case "$option" in

@@ -115,7 +115,7 @@ private:
 
 /// What is left of a step when points keep their places along the curves: up and down each for itself, sideways and in
 /// width all together.
-void make_upright(const std::vector<Pixel>& points, std::vector<Pixel>& ways) {
+void make_upright(const std::vector<Pixel>& points, bool widen, std::vector<Pixel>& ways) {
     double middle = 0, shift = 0, stretch = 0, spread = 0;
     const auto count = static_cast<double>(points.size());
     for (const auto& p : points) middle += p.x() / count;
@@ -124,7 +124,7 @@ void make_upright(const std::vector<Pixel>& points, std::vector<Pixel>& ways) {
         stretch += ways[k].x() * (points[k].x() - middle);
         spread += (points[k].x() - middle) * (points[k].x() - middle);
     }
-    if (spread > 0) stretch /= spread;
+    stretch = widen && spread > 0 ? stretch / spread : 0;
     for (std::size_t k = 0; k < points.size(); ++k) ways[k].x() = shift + stretch * (points[k].x() - middle);
 }
 
@@ -202,7 +202,7 @@ double minimise_snake(SnakeGroup& group, std::span<const SnakeLevel> levels, con
         double step_px = 1.5;
         for (int s = 0; s < options.steps && step_px > 0.03; ++s) {
             auto down = descent.gradient(group);
-            if (options.upright) make_upright(group.points, down);
+            if (options.upright) make_upright(group.points, options.widen, down);
             const double most = longest(down);
             if (!(most > 1e-9)) break;
             SnakeGroup tried = group;

@@ -25,8 +25,9 @@ struct SnakeOptions {
     /// Control points move up and down alone, and the group moves sideways and widens as a whole; false: each goes
     /// where its gradient points.
     bool upright = true;
-    int samples = 12;  ///< along a curve
-    int steps = 24;    ///< downhill, on each level
+    bool widen = true;  ///< with `upright`: the group may become wider; false: it keeps its width
+    int samples = 10;   ///< along a curve
+    int steps = 16;     ///< downhill, on each level
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
         visit("edge", self.edge);
@@ -36,6 +37,7 @@ struct SnakeOptions {
         visit("stay", self.stay);
         visit("cap", self.cap);
         visit("upright", self.upright);
+        visit("widen", self.widen);
         visit("samples", self.samples);
         visit("steps", self.steps);
     }

@@ -40,7 +40,7 @@ void over_pixels(int step, const Use& use) {
 /// 0 on skin, 1 where the face's strongest features are.
 void normalise(FloatImage& image, double top_share) {
     std::vector<float> skin, face;
-    over_pixels(2, [&](int x, int y) {
+    over_pixels(3, [&](int x, int y) {
         if (is_cheek(x, y)) skin.push_back(image.at(x, y));
         if (is_face(x, y)) face.push_back(image.at(x, y));
     });
@@ -94,15 +94,23 @@ ColourComponents components_of(const io::Image& patch) {
     cv::resize(matrix_of(made.value), small, cv::Size(patch.width / 8, patch.height / 8), 0, 0, cv::INTER_AREA);
     cv::GaussianBlur(small, small, cv::Size(), 4.5);
     cv::resize(small, wide, wide.size(), 0, 0, cv::INTER_LINEAR);
+    static const auto lip_hues = [] {
+        std::array<float, 361> table{};
+        for (std::size_t k = 0; k < table.size(); ++k) table[k] = static_cast<float>(lip_hue(static_cast<double>(k)));
+        return table;
+    }();
     for (std::size_t k = 0; k < value.size(); ++k) {
-        const auto c = channels_of(byte(k, 0), byte(k, 1), byte(k, 2));
-        const double level = c.value / std::max(0.05F, light.values[k]);
-        const double coloured = std::clamp(4 * (c.saturation - 0.08), 0.0, 1.0);
-        made.magenta.values[k] = static_cast<float>(c.magenta * coloured);
-        made.black.values[k] = static_cast<float>(std::clamp(1.1 - level, 0.0, 1.0));
-        made.hue.values[k] = static_cast<float>(lip_hue(c.hue_deg) * coloured);
-        made.saturation.values[k] = static_cast<float>(c.saturation);
-        value[k] = static_cast<float>(std::min(level, 1.4));
+        const float r = byte(k, 0), g = byte(k, 1), b = byte(k, 2), high = value[k];
+        const float range = high - std::min({r, g, b}), saturation = high > 0 ? range / high : 0;
+        const float coloured = std::clamp(4 * (saturation - 0.08F), 0.0F, 1.0F);
+        value[k] = std::min(1.4F, high / std::max(0.05F, light.values[k]));
+        made.black.values[k] = std::clamp(1.1F - value[k], 0.0F, 1.0F);
+        made.saturation.values[k] = saturation;
+        if (coloured <= 0) continue;
+        made.magenta.values[k] = (high - g) / high * coloured;
+        const float sixth = high == r ? (g - b) / range : high == g ? 2 + (b - r) / range : 4 + (r - g) / range;
+        const float degrees = 60 * (sixth < 0 ? sixth + 6 : sixth);
+        made.hue.values[k] = lip_hues[static_cast<std::size_t>(std::min(360.0F, degrees))] * coloured;
     }
     return made;
 }
@@ -112,7 +120,7 @@ FeatureMaps transform_colours(const io::Image& patch, const ColourWeights& weigh
     FeatureMaps maps;
     maps.feature = maps.eye = maps.mouth = FloatImage(patch.width, patch.height);
     std::vector<float> skin_saturation, skin_level;
-    over_pixels(2, [&](int x, int y) {
+    over_pixels(3, [&](int x, int y) {
         if (!is_cheek(x, y)) return;
         skin_saturation.push_back(parts.saturation.at(x, y));
         skin_level.push_back(parts.value.at(x, y));

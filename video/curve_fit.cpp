@@ -196,7 +196,10 @@ GroupFit fit_group(FaceCurves& curves, FeatureGroup group, const PatchLevels& le
     const auto start = group_of(curves, group);
     auto best = start;
     GroupFit fit;
-    fit.energy = minimise_snake(best, pyramid, options.snake);
+    auto snake = options.snake;
+    // Of all features the mouth alone changes its width.
+    snake.widen = snake.widen && (group == FeatureGroup::lips_outer || group == FeatureGroup::lips_inner);
+    fit.energy = minimise_snake(best, pyramid, snake);
     if (try_blob && !is_nostril(group)) {
         const auto within = box_of(curves, group);
         if (const auto blob = feature_blob(map_for(levels, group), within, options.blob)) {
@@ -205,7 +208,7 @@ GroupFit fit_group(FaceCurves& curves, FeatureGroup group, const PatchLevels& le
             // A blob of another width is another thing: a shadow, or half of the feature.
             if (across > 0.7 && across < 1.35) {
                 auto other = filling(start, blob->box);
-                const double energy = minimise_snake(other, pyramid, options.snake);
+                const double energy = minimise_snake(other, pyramid, snake);
                 if (energy < fit.energy - 0.03) {
                     fit.energy = energy;
                     best = std::move(other);

@@ -12,12 +12,13 @@ namespace {
 
 using enum FaceCurve;
 
+// The points of a brow are on its upper edge, where annotators of the 68 points put them.
 constexpr std::array<PlaceOnCurves, 47> places = {
-    {{17, brow_right_upper, brow_right_lower, 0},   {18, brow_right_upper, brow_right_lower, 0.25},
-     {19, brow_right_upper, brow_right_lower, 0.5}, {20, brow_right_upper, brow_right_lower, 0.75},
-     {21, brow_right_upper, brow_right_lower, 1},   {22, brow_left_upper, brow_left_lower, 0},
-     {23, brow_left_upper, brow_left_lower, 0.25},  {24, brow_left_upper, brow_left_lower, 0.5},
-     {25, brow_left_upper, brow_left_lower, 0.75},  {26, brow_left_upper, brow_left_lower, 1},
+    {{17, brow_right_upper, brow_right_upper, 0},   {18, brow_right_upper, brow_right_upper, 0.25},
+     {19, brow_right_upper, brow_right_upper, 0.5}, {20, brow_right_upper, brow_right_upper, 0.75},
+     {21, brow_right_upper, brow_right_upper, 1},   {22, brow_left_upper, brow_left_upper, 0},
+     {23, brow_left_upper, brow_left_upper, 0.25},  {24, brow_left_upper, brow_left_upper, 0.5},
+     {25, brow_left_upper, brow_left_upper, 0.75},  {26, brow_left_upper, brow_left_upper, 1},
      {31, nostril_right, nostril_right, 0.1},       {32, nostril_right, nostril_right, 0.55},
      {33, nostril_right, nostril_right, 1},         {34, nostril_left, nostril_left, 0.45},
      {35, nostril_left, nostril_left, 0.9},         {36, lid_right_upper, lid_right_lower, 0},
@@ -121,11 +122,11 @@ FaceCurves curves_through(const Points68& points) {
         return fit_curve(row);
     };
     FaceCurves curves;
-    // The points of a brow lie along its middle; its edges are a share of the eyes' distance away.
-    const Pixel down = 0.035 * Pixel(-(points[45] - points[36]).y(), (points[45] - points[36]).x());
-    curves[brow_right_upper] = through({17, 18, 19, 20, 21}, -down);
+    // The points of a brow lie along its upper edge; the lower one is a share of the eyes' distance away.
+    const Pixel down = 0.07 * Pixel(-(points[45] - points[36]).y(), (points[45] - points[36]).x());
+    curves[brow_right_upper] = through({17, 18, 19, 20, 21});
     curves[brow_right_lower] = through({17, 18, 19, 20, 21}, down);
-    curves[brow_left_upper] = through({22, 23, 24, 25, 26}, -down);
+    curves[brow_left_upper] = through({22, 23, 24, 25, 26});
     curves[brow_left_lower] = through({22, 23, 24, 25, 26}, down);
     curves[lid_right_upper] = through({36, 37, 38, 39});
     curves[lid_right_lower] = through({36, 41, 40, 39});

@@ -101,9 +101,11 @@ public:
 private:
     struct Followed {
         FacePlace place;
-        FaceCurves curves;   ///< in the frame
-        FaceCurves resting;  ///< in the patch: what the shape was when the face was found, slowly renewed
-        io::Image frame;     ///< the last one
+        FaceCurves curves;               ///< in the frame
+        FaceCurves resting;              ///< in the patch: what the shape was when the face was found, slowly renewed
+        std::vector<std::uint8_t> grey;  ///< of the last frame's patch
+        FacePlace patch_place;           ///< where that was cut
+        int width = 0, height = 0;       ///< of the frame
         ColourWeights weights;
         double contrast = 0, inliers = 1;
         int age = 0, misses = 0;
@@ -155,7 +157,10 @@ private:
             if (std::min(contrast, made.contrast) < options_.least_contrast) continue;
             made.resting = halfway(curves, aligned);
             made.curves = mapped(curves, [&](const Pixel& p) { return made.place.frame_from_patch(p); });
-            made.frame = frame;
+            made.grey = grey_of(patch);
+            made.patch_place = made.place;
+            made.width = frame.width;
+            made.height = frame.height;
             followed_ = std::move(made);
             return true;
         }
@@ -216,9 +221,10 @@ private:
 
     bool follow(const io::Image& frame) {
         auto& followed = *followed_;
-        if (frame.width != followed.frame.width || frame.height != followed.frame.height) return false;
-        const auto before = followed.place;
-        const auto old_grey = grey_of(cut_patch(followed.frame, before)), grey = grey_of(cut_patch(frame, before));
+        if (frame.width != followed.width || frame.height != followed.height) return false;
+        const auto before = followed.patch_place;
+        const auto& old_grey = followed.grey;
+        const auto grey = grey_of(cut_patch(frame, before));
         auto points = head_points(old_grey);
         const auto head_count = points.size();
         for (const auto& curve : followed.curves.curve)
@@ -233,7 +239,10 @@ private:
             head.inliers * static_cast<double>(from.size()) / std::max<double>(1, static_cast<double>(head_count));
         if (from.size() < 6 || followed.inliers < options_.least_inliers) return false;
         carry_curves(flowed, head_count, before, head);
-        const auto carried = [&](double x) { return before.frame_from_patch(head(patch_from_mean({x, 0}))); };
+        const auto carried = [&](double x) {
+            const Pixel was = followed.place.frame_from_patch(patch_from_mean({x, 0}));
+            return before.frame_from_patch(head(before.patch_from_frame(was)));
+        };
         followed.place = place_of_corners(carried(-0.5), carried(0.5));
         return refine(frame);
     }
@@ -261,13 +270,15 @@ private:
                 auto& at = curves.curve[c].control[k];
                 at += hold(c) * (followed.resting.curve[c].control[k] - at);
             }
-        const auto levels = levels_of(cut_patch(frame, place), followed.weights, options_.fit);
+        const auto patch = cut_patch(frame, place);
+        const auto levels = levels_of(patch, followed.weights, options_.fit);
         followed.contrast = fit_all(curves, levels, false);
         if (followed.age % options_.look_every_frames == 2) compete(curves, levels);
         if (followed.contrast < 0.5 * options_.least_contrast) return false;
         followed.curves = mapped(curves, [&](const Pixel& p) { return place.frame_from_patch(p); });
         followed.place = between(place, place_of_eyes(followed.curves), 0.15);
-        followed.frame = frame;
+        followed.grey = grey_of(patch);
+        followed.patch_place = place;
         ++followed.age;
         if (followed.age % (followed.misses ? 3 : options_.look_every_frames) != 0) return true;
         if (!finder_) finder_.emplace();

@@ -1,0 +1,209 @@
+// mimik-video is a program of its own: OpenCV's video modules take longer to load than all of `mimik`.
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <malloc.h>
+#include <nlohmann/json.hpp>
+
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "cli/capture_options.h"
+#include "cli/command.h"
+#include "cli/error_report.h"
+#include "cli/notes.h"
+#include "cli/terminal.h"
+#include "io/json_values.h"
+#include "video/colour_network.h"
+#include "video/paper_tracker.h"
+#include "video/rendered_performance.h"
+#include "video/track_video.h"
+#include "video/video_file.h"
+
+namespace mimik::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::unique_ptr<video::FeatureTracker> tracker_of(const CaptureArguments& arguments) {
+    if (arguments.tracker != "paper")
+        throw InputError(fmt::format("--tracker is '{}'; this build has: paper", arguments.tracker));
+    auto network =
+        arguments.colours.empty() ? video::ColourNetwork::shipped() : video::ColourNetwork::load(arguments.colours);
+    return video::make_paper_tracker(std::make_shared<const video::ColourNetwork>(std::move(network)));
+}
+
+void track(const CaptureArguments& arguments) {
+    check_capture_options(arguments);
+    video::TrackVideoOptions options;
+    const auto neutral = neutral_frames(arguments.neutral);
+    options.neutral_from = neutral[0];
+    options.neutral_to = neutral[1];
+    options.smooth = arguments.smooth;
+    options.most_frames = arguments.frames;
+    options.camera.outer_eyes_mm = arguments.interocular_mm;
+    check_by_option({{"outer_eyes_mm", "--interocular-mm"}, {"most_frames", "--frames"}}, [&] { options.check(); });
+    const auto tracker = tracker_of(arguments);
+    const auto report =
+        video::track_video(arguments.source, *tracker,
+                           {arguments.output, arguments.landmarks68, arguments.sheet, arguments.video}, options);
+    if (!arguments.common.quiet && !arguments.common.json) say_notes(report.remarks);
+    if (arguments.common.json)
+        std::cout << io::json_text(nlohmann::ordered_json{{"schema", 1},
+                                                          {"output", arguments.output},
+                                                          {"frames", report.frames},
+                                                          {"tracked", report.tracked},
+                                                          {"found", report.found_anew},
+                                                          {"rate_hz", report.rate_hz},
+                                                          {"tracking_s", report.seconds},
+                                                          {"tracker", tracker->name()},
+                                                          {"remarks", report.remarks}});
+    else if (!arguments.common.quiet)
+        std::cout << fmt::format("{}: {}, the face in {} of them, found {}; {:.0f} frames a second\n", arguments.output,
+                                 base::counted(static_cast<std::size_t>(report.frames), "frame"), report.tracked,
+                                 base::counted(static_cast<std::size_t>(report.found_anew), "time"),
+                                 report.frames_a_second());
+}
+
+void write_video(const std::string& folder, const std::string& output, double rate_hz) {
+    if (!fs::is_directory(folder)) throw InputError(fmt::format("{}: is no folder of PNG files", folder));
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (base::equal_ignoring_case(entry.path().extension().string(), ".png")) files.push_back(entry.path());
+    if (files.empty()) throw InputError(fmt::format("{}: holds no PNG file", folder));
+    std::sort(files.begin(), files.end());
+    video::VideoWriter writer(output, rate_hz);
+    for (const auto& file : files) writer.add(io::read_png(file));
+    writer.finish();
+    std::cout << fmt::format("{}: {}\n", output, base::counted(files.size(), "frame"));
+}
+
+/// PREFIX.mp4, PREFIX_points.csv (68 points), PREFIX_curves.csv, PREFIX_truth.csv (pose and weights).
+void render(const std::string& prefix, const video::PerformanceOptions& options) {
+    const video::RenderedPerformance performance(options);
+    video::VideoWriter writer(prefix + ".mp4", options.rate_hz);
+    std::string points = video::landmarks68_header(), curves = "frame,curve,point,x,y\n";
+    std::string truth = "frame,time,rx,ry,rz,tx,ty,tz,weights\n";
+    for (int f = 0; f < options.frames; ++f) {
+        writer.add(performance.image(f));
+        const auto now = performance.truth(f);
+        points += video::landmarks68_row(f, now.points);
+        for (std::size_t c = 0; c < video::curve_count; ++c)
+            for (std::size_t k = 0; k < now.curves[c].size(); ++k)
+                curves += fmt::format("{},{},{},{:.3f},{:.3f}\n", f, video::name_of(static_cast<video::FaceCurve>(c)),
+                                      k, now.curves[c][k].x(), now.curves[c][k].y());
+        const auto& turn = now.camera_from_head.rotation_vector;
+        const auto& shift = now.camera_from_head.translation_mm;
+        std::string weights;
+        for (const auto& [shape, weight] : now.weights)
+            weights += fmt::format("{}{}={:.4f}", weights.empty() ? "" : " ", shape, weight);
+        truth += fmt::format("{},{:.4f},{:.6f},{:.6f},{:.6f},{:.3f},{:.3f},{:.3f},{}\n", f, now.time_s, turn.x(),
+                             turn.y(), turn.z(), shift.x(), shift.y(), shift.z(), weights);
+    }
+    writer.finish();
+    base::write_atomically(prefix + "_points.csv", points);
+    base::write_atomically(prefix + "_curves.csv", curves);
+    base::write_atomically(prefix + "_truth.csv", truth);
+    std::cout << fmt::format("{}.mp4: {}\n", prefix, base::counted(static_cast<std::size_t>(options.frames), "frame"));
+}
+
+struct TrainArguments {
+    std::vector<std::string> files;  ///< VIDEO LABELS, again and again
+    std::string output, made_of;
+    int every = 1;
+    video::ColourTrainingOptions options;
+};
+
+void train(const TrainArguments& arguments) {
+    constexpr std::size_t most_patches = 400;
+    if (arguments.files.size() % 2 != 0)
+        throw InputError("give each video with its labels: VIDEO LABELS.csv [VIDEO LABELS.csv ...]");
+    if (arguments.every < 1) throw InputError(fmt::format("--every is {}; give 1 or more", arguments.every));
+    std::vector<video::LabelledPatch> labelled;
+    for (std::size_t k = 0; k < arguments.files.size(); k += 2) {
+        const auto rows = video::read_landmarks68(arguments.files[k + 1], 1'000'000);
+        video::VideoReader reader(arguments.files[k]);
+        io::Image frame;
+        std::size_t row = 0;
+        for (long f = 0; row < rows.size() && reader.next(frame); ++f) {
+            while (row < rows.size() && rows[row].frame < f) ++row;
+            if (row == rows.size() || rows[row].frame != f || f % arguments.every != 0) continue;
+            if (labelled.size() == most_patches) break;
+            const auto& p = rows[row].points;
+            const video::Pixel across = p[45] - p[36];
+            const video::FacePlace place{0.5 * (p[36] + p[45]), across.norm(), std::atan2(across.y(), across.x())};
+            auto in_patch = p;
+            for (auto& at : in_patch) at = place.patch_from_frame(at);
+            labelled.push_back({video::cut_patch(frame, place), video::curves_through(in_patch)});
+        }
+    }
+    const auto made_of =
+        arguments.made_of.empty() ? fmt::format("{} labelled frames", labelled.size()) : arguments.made_of;
+    video::ColourNetwork::train(labelled, made_of, arguments.options).save(arguments.output);
+    std::cout << fmt::format("{}: learnt from {}\n", arguments.output,
+                             base::counted(labelled.size(), "labelled frame"));
+}
+
+int run_video(int argc, char** argv) {
+    // FFmpeg and OpenCV tell of every oddity of a file; what matters is said by us.
+    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
+    setenv("OPENCV_LOG_LEVEL", "SILENT", 0);    // NOLINT(concurrency-mt-unsafe)
+    // Images of a patch come and go with every frame: their pages stay, so that the system need not clear them anew.
+    constexpr int kept_bytes = 64 << 20;
+    mallopt(M_MMAP_THRESHOLD, kept_bytes);
+    mallopt(M_TRIM_THRESHOLD, kept_bytes);
+    // A patch is too small to share out among threads, and sums are then always added in one order.
+    video::use_one_thread();
+    prepare_standard_streams();
+    CLI::App app{"Follows a performer's face in video, without markers.", "mimik-video"};
+    app.set_help_flag("-h,--help", "Print this help and stop");
+    app.require_subcommand(1);
+    CaptureArguments capture;
+    auto* tracking = app.add_subcommand("track", "Curves of brows, lids, nostrils and lips in every frame");
+    add_capture_options(*tracking, capture);
+    tracking->callback([&] { track(capture); });
+
+    std::string folder, output;
+    double rate_hz = 30;
+    auto* writing = app.add_subcommand("write", "A folder of PNG files as an MP4");
+    writing->add_option("FRAMES", folder, "Folder of PNG files of one size, in the order of their names")->required();
+    writing->add_option("OUTPUT", output, "MP4 file")->required();
+    writing->add_option("--fps", rate_hz, "Frames a second")->capture_default_str();
+    writing->callback([&] { write_video(folder, output, rate_hz); });
+
+    std::string prefix;
+    video::PerformanceOptions performance;
+    auto* rendering = app.add_subcommand("render", "A made performance with its true curves, pose and weights");
+    rendering->add_option("-o,--output", prefix, "PREFIX of PREFIX.mp4 and PREFIX_points|curves|truth.csv")->required();
+    rendering->add_option("--frames", performance.frames, "How many")->capture_default_str();
+    rendering->add_option("--width", performance.width_px, "Pixels")->capture_default_str();
+    rendering->add_option("--height", performance.height_px, "Pixels")->capture_default_str();
+    rendering->add_option("--fps", performance.rate_hz, "Frames a second")->capture_default_str();
+    rendering->add_option("--noise", performance.noise, "Of the camera, grey levels")->capture_default_str();
+    rendering->add_option("--head-motion", performance.head_motion, "0: the head is still")->capture_default_str();
+    rendering->add_option("--light-change", performance.light_change, "0: the light is steady")->capture_default_str();
+    add_seed_option(*rendering, performance.seed);
+    rendering->callback([&] { render(prefix, performance); });
+
+    TrainArguments training;
+    auto* learning = app.add_subcommand("train", "Weights of the colour transform from labelled frames");
+    learning->add_option("FILES", training.files, "VIDEO LABELS.csv, once or more; labels as --landmarks68 writes them")
+        ->required();
+    learning->add_option("-o,--output", training.output, "YAML file for --colours")->required();
+    learning->add_option("--every", training.every, "Takes every so many labelled frames")->capture_default_str();
+    learning->add_option("--made-of", training.made_of, "What the file says that it was trained on");
+    learning->callback([&] { train(training); });
+    return run(app, argc, argv, exit_done);
+}
+
+}  // namespace
+}  // namespace mimik::cli
+
+int main(int argc, char** argv) { return mimik::cli::run_video(argc, argv); }

@@ -1,0 +1,145 @@
+#include "video/video_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "base/errors.h"
+#include "base/file.h"
+#include "base/text.h"
+
+namespace mimik::video {
+
+void use_one_thread() { cv::setNumThreads(1); }
+
+struct VideoReader::Parts {
+    std::string name;
+    cv::VideoCapture capture;
+    cv::Mat frame, first;
+    bool camera = false;
+};
+
+VideoReader::VideoReader(const std::string& source) : parts_(std::make_unique<Parts>()) {
+    parts_->name = source;
+    const bool number = !source.empty() && source.size() < 4 &&
+                        std::all_of(source.begin(), source.end(), [](unsigned char c) { return std::isdigit(c); });
+    parts_->camera = number || source.starts_with("/dev/video");
+    if (!parts_->camera && !base::is_there(source))
+        throw InputError(fmt::format("{}: there is no such file, and no camera has that name", source));
+    if (std::filesystem::is_directory(source))
+        throw InputError(fmt::format("{}: is a folder; give a video file", source));
+    try {
+        if (number)
+            parts_->capture.open(std::stoi(source));
+        else if (parts_->camera)
+            parts_->capture.open(source, cv::CAP_V4L2);
+        else
+            parts_->capture.open(source);
+        if (parts_->capture.isOpened()) parts_->capture.read(parts_->first);
+    } catch (const cv::Exception&) {
+        parts_->first.release();
+    }
+    if (parts_->first.empty() && parts_->camera)
+        throw InputError(fmt::format("camera {}: gives no picture; is it connected, and may you read it?", source));
+    if (parts_->first.empty())
+        throw InputError(
+            fmt::format("{}: no frame can be decoded; it is damaged, no video, or of a codec that OpenCV does not know "
+                        "(convert it: ffmpeg -i IN -c:v libx264 OUT.mp4)",
+                        source));
+}
+VideoReader::~VideoReader() = default;
+
+bool VideoReader::is_camera() const { return parts_->camera; }
+double VideoReader::rate_hz() const {
+    const double rate = parts_->capture.get(cv::CAP_PROP_FPS);
+    return std::isfinite(rate) && rate >= 1 && rate <= 1000 ? rate : 30;
+}
+long VideoReader::frames() const {
+    const double count = parts_->capture.get(cv::CAP_PROP_FRAME_COUNT);
+    return !parts_->camera && count > 0 && count < 1e9 ? std::lround(count) : 0;
+}
+
+bool VideoReader::next(io::Image& frame) {
+    if (!parts_->first.empty()) {
+        parts_->frame = parts_->first;
+        parts_->first.release();
+    } else {
+        try {
+            if (!parts_->capture.read(parts_->frame)) return false;
+        } catch (const cv::Exception&) {
+            return false;
+        }
+    }
+    const auto& from = parts_->frame;
+    if (from.empty() || from.depth() != CV_8U) return false;
+    frame.width = from.cols;
+    frame.height = from.rows;
+    frame.rgb.resize(3 * from.total());
+    cv::Mat to(from.rows, from.cols, CV_8UC3, frame.rgb.data());
+    cv::cvtColor(from, to, from.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
+    return true;
+}
+
+struct VideoWriter::Parts {
+    std::filesystem::path file, part;
+    double rate_hz = 30;
+    cv::VideoWriter writer;
+    cv::Size size;
+};
+
+VideoWriter::VideoWriter(const std::filesystem::path& file, double rate_hz) : parts_(std::make_unique<Parts>()) {
+    if (!base::equal_ignoring_case(file.extension().string(), ".mp4"))
+        throw InputError(fmt::format("{}: videos are written as .mp4", file.string()));
+    if (!(rate_hz >= 1 && rate_hz <= 1000))
+        throw InputError(fmt::format("{} frames a second; give 1 to 1000", rate_hz));
+    parts_->file = file;
+    parts_->part = file;
+    parts_->part.replace_extension(".part.mp4");
+    parts_->rate_hz = rate_hz;
+    if (file.has_parent_path()) {
+        std::error_code ignored;  // said when the file does not open
+        std::filesystem::create_directories(file.parent_path(), ignored);
+    }
+}
+VideoWriter::~VideoWriter() {
+    if (!parts_->writer.isOpened()) return;
+    parts_->writer.release();
+    std::error_code ignored;
+    std::filesystem::remove(parts_->part, ignored);
+}
+
+void VideoWriter::add(const io::Image& frame) {
+    auto& p = *parts_;
+    const cv::Size size(frame.width / 2 * 2, frame.height / 2 * 2);
+    if (!p.writer.isOpened()) {
+        p.size = size;
+        if (size.empty() ||
+            !p.writer.open(p.part.string(), cv::VideoWriter::fourcc('m', 'p', '4', 'v'), p.rate_hz, size))
+            throw InputError(fmt::format("{}: cannot be written", p.file.string()));
+    }
+    if (size != p.size)
+        throw InputError(fmt::format("{}: a frame of {} x {} pixels after frames of {} x {}; all must have one size",
+                                     p.file.string(), size.width, size.height, p.size.width, p.size.height));
+    const cv::Mat from(frame.height, frame.width, CV_8UC3, const_cast<std::uint8_t*>(frame.rgb.data()));  // NOLINT
+    cv::Mat to;
+    cv::cvtColor(from(cv::Rect(0, 0, size.width, size.height)), to, cv::COLOR_RGB2BGR);
+    p.writer.write(to);
+}
+
+void VideoWriter::finish() {
+    auto& p = *parts_;
+    if (!p.writer.isOpened()) throw InputError(fmt::format("{}: there is no frame to write", p.file.string()));
+    p.writer.release();
+    std::error_code error;
+    std::filesystem::rename(p.part, p.file, error);
+    if (error) throw InputError(fmt::format("{}: cannot be written: {}", p.file.string(), error.message()));
+}
+
+}  // namespace mimik::video

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "io/image.h"
+
+namespace mimik::video {
+
+/// OpenCV's functions stay on the thread that calls them.
+void use_one_thread();
+
+/// A video file or a camera, frame after frame, by what OpenCV decodes.
+class VideoReader {
+public:
+    /// @param source  a file, or the number of a camera ("0"), or its device ("/dev/video0")
+    /// @throws InputError if it is missing, no video, or has a codec that OpenCV does not decode
+    explicit VideoReader(const std::string& source);
+    ~VideoReader();
+
+    /// False at the end, or where the rest cannot be decoded.
+    [[nodiscard]] bool next(io::Image& frame);
+    [[nodiscard]] double rate_hz() const;  ///< 30 where the file does not say
+    [[nodiscard]] long frames() const;     ///< as the file says; 0: it does not, or it is a camera
+    [[nodiscard]] bool is_camera() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// An MP4 (MPEG-4 part 2, which every OpenCV writes). The file is there under its name when finish() has run.
+class VideoWriter {
+public:
+    /// @throws InputError if the name does not end in .mp4 or nothing can be written there
+    VideoWriter(const std::filesystem::path& file, double rate_hz);
+    ~VideoWriter();
+    /// All frames have the size of the first; an odd last row or column is left out.
+    void add(const io::Image& frame);
+    void finish();
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace mimik::video
