@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# setup.sh [--check] [--bench] [--adapters] [--page] [--browser]: installs the Debian 12 packages that Mimik is built and
-# run with; does nothing where they are there. --check adds what scripts/check.sh needs (clang tools), --bench what scripts/bench.sh
-# compares with, --adapters the two libraries of adapters/ and companions/ that nothing else needs, --page npm where none
-# is on the PATH: it bundles the page of an experiment; --browser what tests that page. Needs root or sudo to install.
+# setup.sh [--check] [--bench] [--adapters] [--page] [--browser] [--video]: installs the Debian 12 packages that Mimik is
+# built and run with; does nothing where they are there. --check adds what scripts/check.sh needs (clang tools), --bench
+# what scripts/bench.sh compares with, --adapters the two libraries of adapters/ and companions/ that nothing else needs,
+# --page npm where none is on the PATH: it bundles the page of an experiment; --browser what tests that page; --video
+# OpenCV, for mimik-video. Needs root or sudo to install.
 set -euo pipefail
 
 packages=(
@@ -22,8 +23,6 @@ packages=(
   python3-scipy python3-statsmodels
   # a Slurm of its own for tests/cli/slurm.sh: 3 MB to fetch
   slurmctld slurmd slurm-client munge
-  # faces in video (mimik-video): optional for the build
-  libopencv-dev opencv-data
 )
 for option in "$@"; do
   case "$option" in
@@ -32,7 +31,8 @@ for option in "$@"; do
     --adapters) packages+=(libpcl-dev libopencv-dev) ;;
     --page) command -v npm >/dev/null || packages+=(nodejs npm) ;;
     --browser) packages+=(chromium) ;;
-    *) echo "setup.sh: there is no option '$option'; there are --check, --bench, --adapters, --page and --browser" >&2; exit 2 ;;
+    --video) packages+=(libopencv-dev opencv-data) ;;
+    *) echo "setup.sh: there is no option '$option'; there are --check, --bench, --adapters, --page, --browser and --video" >&2; exit 2 ;;
   esac
 done
 
