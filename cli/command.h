@@ -74,6 +74,7 @@ void add_model_command(CLI::App& app, int& exit_code);
 void add_animate_command(CLI::App& app, int& exit_code);
 void add_evaluate_command(CLI::App& app, int& exit_code);
 void add_run_command(CLI::App& app, int& exit_code);
+void add_report_command(CLI::App& app, int& exit_code);
 void add_verify_command(CLI::App& app, int& exit_code);
 void add_tune_command(CLI::App& app, int& exit_code);
 void add_warp_command(CLI::App& app, int& exit_code);

@@ -6,10 +6,6 @@
 #include "cli/option_faults.h"
 #include "cli/terminal.h"
 
-namespace mimik::cli {
-void add_report_command(CLI::App& app, int& exit_code);
-}
-
 int main(int argc, char** argv) {
     mimik::cli::prepare_standard_streams();
     CLI::App app{"Mimik puts expressions on 3D face scans and measures how true they are.", "mimik"};
