@@ -26,7 +26,7 @@ struct Arguments {
     Common common;
     std::string folder, file, workspace;
     report::PageFacesOptions faces;
-    bool open_no_workspace = false;
+    bool no_workspace = false;
 };
 
 /// Where the run said that its file and its workspace are; empty: it did not say.
@@ -46,7 +46,7 @@ int run(const Arguments& arguments) {
     const auto name = arguments.file.empty() ? recorded(folder, "experiment") : arguments.file;
     const auto title = name.empty() ? std::string("experiment") : fs::path(name).stem().string();
     std::vector<std::string> remarks;
-    if (arguments.open_no_workspace || name.empty()) {
+    if (arguments.no_workspace || name.empty()) {
         remarks = write_page(folder, title, facs::builtin_catalogue(), nullptr, nullptr, arguments.faces);
     } else {
         const auto place = arguments.workspace.empty() ? recorded(folder, "workspace") : arguments.workspace;
@@ -70,7 +70,6 @@ int run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_report_command(CLI::App& app, int& exit_code);  // TEMP
 void add_report_command(CLI::App& app, int& exit_code) {
     auto* command = app.add_subcommand(
         "report", "Write the page of a finished experiment: tables, plots and faces in one HTML file");
@@ -89,8 +88,7 @@ void add_report_command(CLI::App& app, int& exit_code) {
         ->delimiter(',');
     command->add_option("--file", arguments->file, "The experiment's file, where it was moved");
     command->add_option("--workspace", arguments->workspace, "The experiment's workspace, where it was moved");
-    command->add_flag("--no-workspace", arguments->open_no_workspace,
-                      "Make a page without faces from the results alone");
+    command->add_flag("--no-workspace", arguments->no_workspace, "Make a page without faces from the results alone");
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -24,6 +24,18 @@ execute_process(
 if(NOT code EQUAL 0)
   message(FATAL_ERROR "esbuild cannot bundle ${SOURCE}/src/main.js")
 endif()
+# The licences of what is in it go where it goes, which is into every page.
+file(GLOB licences ${WORK}/node_modules/*/LICENSE* ${WORK}/node_modules/@observablehq/*/LICENSE*)
+list(FILTER licences EXCLUDE REGEX "/esbuild/")
+list(SORT licences)
+foreach(licence IN LISTS licences)
+  get_filename_component(package ${licence} DIRECTORY)
+  file(RELATIVE_PATH package ${WORK}/node_modules ${package})
+  file(READ ${licence} text)
+  string(REPLACE "*/" "* /" text "${text}")
+  string(REPLACE "</" "< /" text "${text}")
+  file(APPEND ${WORK}/page.js "/* Licence of ${package}:\n${text}*/\n")
+endforeach()
 file(COPY ${SOURCE}/page.mustache ${SOURCE}/style.css DESTINATION ${BUILT})
 file(COPY ${WORK}/page.js DESTINATION ${BUILT})
 # file(COPY) keeps times: the build compares them.

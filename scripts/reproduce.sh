@@ -78,7 +78,7 @@ step 5 "Run experiments/thesis.toml: six methods beside doing nothing and the tr
 
 step 6 "Draw the sheet of pictures, and check the scans as 'mimik scans --check' does"
 sheet=()
-for au in 4 12 15 12L; do
+for au in 4 12 15 12_L; do  # as the folders of the panels are called
   by() { echo "$out/figures/AU${au}_$1/target_$2.ply"; }
   sheet+=("$(by "${source}_on_${target}_default" neutral)" --caption "AU $au: neutral"
     "$(by "${source}_on_${target}_thesis" animated)" --caption "thesis" "$(by "${source}_on_${target}_default" animated)" --caption "default"
