@@ -237,7 +237,7 @@ std::string encode_weights(const MappedPerformance& performance) {
         fmt::format_to(std::back_inserter(text), "{},{},{}", frame, performance.times_s[frame],
                        performance.tracked[frame] ? "tracked" : "lost");
         for (const double weight : performance.weights.row(static_cast<Eigen::Index>(frame)))
-            fmt::format_to(std::back_inserter(text), ",{:.6f}", weight);
+            fmt::format_to(std::back_inserter(text), ",{:.6f}", std::abs(weight) < 5e-7 ? 0.0 : weight);  // no -0
         text += '\n';
     }
     return text;

@@ -20,7 +20,7 @@ std::vector<Point> neutral() {
 }
 std::vector<std::vector<Vector>> moved() {
     std::vector<std::vector<Vector>> all(4, std::vector<Vector>(2000, Vector::Zero()));
-    for (int v = 0; v < 2000; ++v) all[0][static_cast<std::size_t>(v)] = {0.5, v, 1};
+    for (int v = 0; v < 2000; ++v) all[0][static_cast<std::size_t>(v)] = {0.5, static_cast<double>(v), 1};
     for (std::size_t v = 700; v < 711; ++v) all[1][v] = {1, 2, 3};
     all[3][1999] = {0, 0, 8};
     return all;

@@ -65,7 +65,7 @@ TEST(Wires, a_curve_goes_through_its_points_and_a_single_point_is_one) {
     const std::vector<Point> bent = {{0, 0, 0}, {10, 5, 0}, {20, 0, 3}};
     const WireCurve curve(bent);
     for (const auto& p : bent) EXPECT_LT(curve.nearest(p).distance_mm, 1e-12);
-    const WireCurve point(std::span(bent).first(1));
+    const WireCurve point{std::span<const Point>(bent).first(1)};
     EXPECT_DOUBLE_EQ(point.nearest({3, 4, 0}).distance_mm, 5);
     EXPECT_TRUE(point.tangent(point.nearest({3, 4, 0})).isZero(0));
 }
