@@ -193,6 +193,9 @@ awk 'BEGIN { n = split("A B C D E", who, " "); split("2 0 1 1 1", drawn, " ")
   print "<text x=\"285\" y=\"343\" fill=\"#333333\">what a pair weighs: both counts multiplied</text>"
   print "</svg>" }' >made/statistics.svg
 
+"$mimik" figures work wrinkle-nasolabial -o named --quiet >/dev/null
+cp named/wrinkle-nasolabial.svg made/wrinkle_nasolabial.svg
+
 for picture in made/*.png; do pngquant --force --ext .png --nofs --speed 1 256 "$picture"; done
 cd - >/dev/null
 for picture in docs/images/*; do
