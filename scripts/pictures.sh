@@ -198,6 +198,8 @@ awk 'BEGIN { n = split("A B C D E", who, " "); split("2 0 1 1 1", drawn, " ")
   print "<text x=\"285\" y=\"343\" fill=\"#333333\">what a pair weighs: both counts multiplied</text>"
   print "</svg>" }' >made/statistics.svg
 
+"$mimik" figures work wrinkle-nasolabial -o named --quiet >/dev/null
+cp named/wrinkle-nasolabial.svg made/wrinkle_nasolabial.svg
 # The weights of three examples and of a face at rest on a line: hyperplanes, and what bells make of them.
 awk '
   function bell(x) { x = x < 0 ? -x : x; return x >= 2 ? 0 : x >= 1 ? (2 - x) ^ 3 / 6 : 2 / 3 - x * x + x ^ 3 / 2 }
