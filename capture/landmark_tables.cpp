@@ -266,6 +266,10 @@ private:
 };
 
 void OpenFaceReader::read_row() {
+    // Every frame takes memory for its features, so a row of few letters must not be one.
+    if (rows_.fields() != rows_.header().size())
+        rows_.fail(fmt::format("{} where the header names {}; write the line whole",
+                               base::counted(rows_.fields(), "field"), base::counted(rows_.header().size(), "column")));
     if (face_) {
         if (read_.empty()) first_face_ = rows_.field(*face_);
         if (rows_.field(*face_) != first_face_) {

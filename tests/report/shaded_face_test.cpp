@@ -1,5 +1,8 @@
 #include "report/shaded_face.h"
 
+#include <algorithm>
+#include <array>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
