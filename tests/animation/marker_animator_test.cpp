@@ -83,7 +83,9 @@ TEST(MarkerAnimator, a_jaw_that_drops_moves_the_lower_lip_and_leaves_upper_lip_a
     double upper = 0, open_upper = 0, lip = 0;
     for (std::size_t v = 0; v < mask.vertices.size(); ++v) {
         const auto& p = mask.vertices[v];
-        if (p.y() < -120) EXPECT_EQ(with[v].norm(), 0) << "the neck, 40 mm below the lowest marker";
+        if (p.y() < -120) {
+            EXPECT_EQ(with[v].norm(), 0) << "the neck, 40 mm below the lowest marker";
+        }
         if (mask.parts[v] == capture::part_bit(0, true) && std::abs(p.x()) < 10) {
             upper = std::max(upper, with[v].norm());
             open_upper = std::max(open_upper, without[v].norm());

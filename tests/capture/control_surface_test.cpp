@@ -81,8 +81,12 @@ TEST(ControlSurface, a_triangle_of_a_lip_lacks_the_bit_of_the_other_lip_alone) {
             above = above || surface.corners[c].starts_with("lip_upper");
             below = below || surface.corners[c].starts_with("lip_lower");
         }
-        if (above) EXPECT_EQ(surface.parts[k] & 3U, part_bit(0, true));
-        if (below) EXPECT_EQ(surface.parts[k] & 3U, part_bit(0, false));
+        if (above) {
+            EXPECT_EQ(surface.parts[k] & 3U, part_bit(0, true));
+        }
+        if (below) {
+            EXPECT_EQ(surface.parts[k] & 3U, part_bit(0, false));
+        }
         upper += above ? 1 : 0;
         lower += below ? 1 : 0;
     }
