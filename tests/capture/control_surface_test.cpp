@@ -116,7 +116,7 @@ TEST(ControlSurface, flipped_flat_and_doubled_triangles_are_named) {
         const auto faults = surface_faults(set, places);
         return faults.empty() ? std::string() : faults.front();
     };
-    EXPECT_THAT(fault({"d", "c", "b"}), HasSubstr("is flipped"));
+    EXPECT_THAT(fault({"b", "c", "d"}), HasSubstr("is flipped"));
     EXPECT_THAT(fault({"a", "b", "d"}), HasSubstr("has no area"));
     EXPECT_THAT(fault({"b", "c", "a"}), HasSubstr("is there twice"));
     EXPECT_THAT(fault({"a", "a", "c"}), HasSubstr("has a corner twice"));
