@@ -41,7 +41,9 @@ struct UnitFields {
 };
 
 struct MarkerAnimatorOptions {
-    PlanarBonesOptions bones;
+    /// Twice the shortest edge: bones reach the rim of lids and the skin under the jaw, and with masks no lip's bone
+    /// reaches the other lip.
+    PlanarBonesOptions bones = {2.0};
     UnitWeightsOptions units;
     geometry::RadialBasisOptions basis;
     template <class Self, class Visit>

@@ -37,14 +37,15 @@ Eigen::MatrixXf sampled(std::size_t frames, std::size_t vertices, std::size_t co
 
 /// Orthonormal columns; as many as the motion has, at most `most`.
 Eigen::MatrixXd principal(const Eigen::MatrixXf& columns, std::size_t most) {
-    const Eigen::MatrixXd gram = (columns.transpose() * columns).cast<double>();
+    const Eigen::MatrixXd wide = columns.cast<double>();  // sums of squares in single precision would look like motion
+    const Eigen::MatrixXd gram = wide.transpose() * wide;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
     const auto& values = solver.eigenvalues();
     const double negligible = 1e-9 * std::max(values.maxCoeff(), 0.0);
     std::vector<Eigen::VectorXd> list;
     for (Eigen::Index k = values.size() - 1; k >= 0 && list.size() < most; --k) {
         if (!(values[k] > negligible)) break;
-        list.emplace_back(columns.cast<double>() * (solver.eigenvectors().col(k) / std::sqrt(values[k])));
+        list.emplace_back(wide * (solver.eigenvectors().col(k) / std::sqrt(values[k])));
     }
     Eigen::MatrixXd basis(columns.rows(), static_cast<Eigen::Index>(list.size()));
     for (std::size_t k = 0; k < list.size(); ++k) basis.col(static_cast<Eigen::Index>(k)) = list[k];

@@ -97,6 +97,23 @@ PartTexture::PartTexture(const preprocessing::FaceTemplate& face_template, std::
     for (const auto& triangle : face_template.surface.triangles)
         draw({bent_mm[triangle[0]], bent_mm[triangle[1]], bent_mm[triangle[2]]},
              {shares[triangle[0]], shares[triangle[1]], shares[triangle[2]]}, depth);
+    fill_openings(depth);
+}
+
+/// Lips that stand apart and eyes leave a gap in the picture, and what lies in it belongs to its nearer border.
+void PartTexture::fill_openings(std::span<const float> depth) {
+    const auto place = [&](int column, int row) {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+    };
+    for (int column = 0; column < columns_; ++column) {
+        int last = -1;  // row that was drawn
+        for (int row = 0; row < rows_; ++row) {
+            if (depth[place(column, row)] < 0) continue;
+            for (int gap = last + 1; last >= 0 && gap < row; ++gap)
+                texels_[place(column, gap)] = texels_[place(column, gap - last <= row - gap ? last : row)];
+            last = row;
+        }
+    }
 }
 
 double PartTexture::column_of(const Point& p) const {

@@ -58,6 +58,7 @@ private:
     [[nodiscard]] double row_of(const geometry::Point& p) const;
     void draw(const std::array<geometry::Point, 3>& corners, const std::array<PartShares, 3>& shares,
               std::vector<float>& depth);
+    void fill_openings(std::span<const float> depth);
 
     int columns_ = 0, rows_ = 0;
     double axis_z_mm_ = 0, bottom_mm_ = 0, top_mm_ = 1;

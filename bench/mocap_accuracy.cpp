@@ -47,7 +47,7 @@ using geometry::Vector;
 struct Arguments {
     std::string ict, makehuman;
     int people = 2;
-    double radius_share = animation::PlanarBonesOptions{}.radius_share;
+    double radius_share = animation::MarkerAnimatorOptions{}.bones.radius_share;
     double pull = animation::UnitWeightsOptions{}.pull;
     bool per_unit = false;
 };

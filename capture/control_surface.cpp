@@ -30,7 +30,9 @@ const char* fault_of_shape(const std::array<geometry::Point, 3>& at) {
     double longest = 0;
     for (std::size_t c = 0; c < 3; ++c) longest = std::max(longest, (at[(c + 1) % 3] - at[c]).norm());
     if (!(normal.norm() > flattest * longest * longest)) return "has no area";
-    if (normal.z() < 0) return "is flipped: its corners run clockwise seen from outside";
+    // Under the jaw the skin looks down and a little back.
+    constexpr double turned_back = -0.3;
+    if (normal.z() < turned_back * normal.norm()) return "is flipped: its corners run clockwise seen from outside";
     return "";
 }
 

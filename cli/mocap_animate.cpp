@@ -27,7 +27,7 @@
 namespace mimik::cli {
 namespace {
 
-struct Arguments {
+struct AnimateTakeArguments {
     Common common;
     Recording recording;
     MocapTargetArguments target;
@@ -49,7 +49,7 @@ Kind kind_of(const std::filesystem::path& output) {
     throw InputError(fmt::format("{}: give a folder (no extension), a .glb or a .mp4", output.string()));
 }
 
-void check(const Arguments& arguments) {
+void check(const AnimateTakeArguments& arguments) {
     (void)animation::parse_marker_method(arguments.method);
     (void)kind_of(arguments.output);
     if (arguments.every < 1) throw InputError("--every: is 0; give 1 for every frame, 2 for every other one");
@@ -65,7 +65,7 @@ void check(const Arguments& arguments) {
 }
 
 /// The markers of the face without the motion of the head and without gaps.
-capture::MarkerSequence cleaned(const Arguments& arguments, const capture::MarkerSequence& take,
+capture::MarkerSequence cleaned(const AnimateTakeArguments& arguments, const capture::MarkerSequence& take,
                                 const capture::MarkerSet& set, std::vector<std::string>& remarks) {
     if (arguments.cleaned) return take;
     const auto add = [&](const std::vector<std::string>& more) {
@@ -163,7 +163,7 @@ struct Result {
     double scale = 1;
 };
 
-nlohmann::json as_json(const Arguments& arguments, const MocapMotion& motion, const Result& result,
+nlohmann::json as_json(const AnimateTakeArguments& arguments, const MocapMotion& motion, const Result& result,
                        const std::vector<std::string>& remarks) {
     auto markers = nlohmann::json::array();
     for (std::size_t k = 0; k < result.marker_error_mm.size(); ++k)
@@ -191,7 +191,7 @@ nlohmann::json as_json(const Arguments& arguments, const MocapMotion& motion, co
     return document;
 }
 
-void print(const Arguments& arguments, const MocapMotion& motion, const Result& result) {
+void print(const AnimateTakeArguments& arguments, const MocapMotion& motion, const Result& result) {
     const auto worst = std::max_element(result.marker_error_mm.begin(), result.marker_error_mm.end());
     const double mean = std::accumulate(result.marker_error_mm.begin(), result.marker_error_mm.end(), 0.0) /
                         static_cast<double>(result.marker_error_mm.size());
@@ -226,7 +226,7 @@ std::vector<std::string> tracked(const capture::MarkerSequence& markers, const g
     return names;
 }
 
-int run(const Arguments& arguments) {
+int run_animate_take(const AnimateTakeArguments& arguments) {
     check(arguments);
     const auto kind = kind_of(arguments.output);
     if (kind == Kind::video) (void)find_video_program();
@@ -272,7 +272,7 @@ int run(const Arguments& arguments) {
     return exit_done;
 }
 
-void add_output_options(CLI::App& command, Arguments& arguments) {
+void add_output_options(CLI::App& command, AnimateTakeArguments& arguments) {
     command
         .add_option("-o,--output", arguments.output,
                     "Folder of meshes frame_000001.vtp ..., a .glb whose morph weights move, or a .mp4")
@@ -293,7 +293,7 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
 
 void add_mocap_animate(CLI::App& group, int& exit_code) {
     auto* command = group.add_subcommand("animate", "Put a recording on a face: meshes, a moving .glb, a video");
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<AnimateTakeArguments>();
     arguments->recording.add_options(*command);
     command
         ->add_option("--target", arguments->target.target,
@@ -321,7 +321,7 @@ void add_mocap_animate(CLI::App& group, int& exit_code) {
         ->capture_default_str();
     add_output_options(*command, *arguments);
     add_common_options(*command, arguments->common);
-    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+    command->callback([arguments, &exit_code] { exit_code = run_animate_take(*arguments); });
 }
 
 }  // namespace mimik::cli

@@ -19,7 +19,7 @@
 namespace mimik::cli {
 namespace {
 
-struct Arguments {
+struct SynthesizeTakesArguments {
     Common common;
     std::filesystem::path out;
     std::string face_model;
@@ -64,7 +64,7 @@ std::size_t write_truth(const std::filesystem::path& folder, const synthesis::Pe
     return count;
 }
 
-int run(const Arguments& arguments) {
+int run_synthesize_takes(const SynthesizeTakesArguments& arguments) {
     check_by_option({{"rate_hz", "--rate"},
                      {"seconds", "--seconds"},
                      {"noise_mm", "--noise"},
@@ -113,7 +113,7 @@ int run(const Arguments& arguments) {
 void add_mocap_synthesize(CLI::App& group, int& exit_code) {
     auto* command = group.add_subcommand(
         "synthesize", "Make recordings with a truth: a source who acts, and how a target would look doing the same");
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<SynthesizeTakesArguments>();
     command->add_option("OUT", arguments->out, "New folder")->required();
     command->add_option("--face-model", arguments->face_model,
                         "Folder of ICT-FaceKit (its FaceXModel or the parent); without it the built-in model");
@@ -128,7 +128,7 @@ void add_mocap_synthesize(CLI::App& group, int& exit_code) {
         ->capture_default_str();
     add_seed_option(*command, options.seed);
     add_common_options(*command, arguments->common);
-    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+    command->callback([arguments, &exit_code] { exit_code = run_synthesize_takes(*arguments); });
 }
 
 }  // namespace mimik::cli

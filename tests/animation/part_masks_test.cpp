@@ -60,6 +60,15 @@ TEST(PartTexture, is_warped_as_the_template_is_bent) {
     }
 }
 
+TEST(PartTexture, what_lies_between_lips_that_stand_apart_belongs_to_the_nearer_one) {
+    const Sheet sheet;
+    auto bent = sheet.face_template.surface.vertices_mm;
+    for (std::size_t v = 42; v < bent.size(); ++v) bent[v].y() += 4;  // the upper half; a gap from 0 to 4 mm
+    const PartTexture texture(sheet.face_template, sheet.shares, bent, {720, 640});
+    EXPECT_EQ(texture.at(Point(0, 3, 80)).mouth, 1);
+    EXPECT_EQ(texture.at(Point(0, 1, 80)).mouth, -1);
+}
+
 TEST(PartTexture, bad_sizes_are_refused) {
     const Sheet sheet;
     EXPECT_THAT(message_of([&] {

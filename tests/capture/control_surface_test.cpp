@@ -81,8 +81,12 @@ TEST(ControlSurface, a_triangle_of_a_lip_lacks_the_bit_of_the_other_lip_alone) {
             above = above || surface.corners[c].starts_with("lip_upper");
             below = below || surface.corners[c].starts_with("lip_lower");
         }
-        if (above) EXPECT_EQ(surface.parts[k] & 3U, part_bit(0, true));
-        if (below) EXPECT_EQ(surface.parts[k] & 3U, part_bit(0, false));
+        if (above) {
+            EXPECT_EQ(surface.parts[k] & 3U, part_bit(0, true));
+        }
+        if (below) {
+            EXPECT_EQ(surface.parts[k] & 3U, part_bit(0, false));
+        }
         upper += above ? 1 : 0;
         lower += below ? 1 : 0;
     }
@@ -112,7 +116,7 @@ TEST(ControlSurface, flipped_flat_and_doubled_triangles_are_named) {
         const auto faults = surface_faults(set, places);
         return faults.empty() ? std::string() : faults.front();
     };
-    EXPECT_THAT(fault({"d", "c", "b"}), HasSubstr("is flipped"));
+    EXPECT_THAT(fault({"b", "c", "d"}), HasSubstr("is flipped"));
     EXPECT_THAT(fault({"a", "b", "d"}), HasSubstr("has no area"));
     EXPECT_THAT(fault({"b", "c", "a"}), HasSubstr("is there twice"));
     EXPECT_THAT(fault({"a", "a", "c"}), HasSubstr("has a corner twice"));

@@ -47,7 +47,9 @@ TEST(Performance, recording_a_ramps_every_unit_alone_from_rest_to_full_and_back)
         const auto active =
             std::count_if(score.strength[f].begin(), score.strength[f].end(), [](double s) { return s > 0; });
         EXPECT_EQ(active, f % 12 == 0 ? 0 : 1);
-        if (f % 12 == 6) EXPECT_EQ(score.strength[f][f / 12], 1.0);
+        if (f % 12 == 6) {
+            EXPECT_EQ(score.strength[f][f / 12], 1.0);
+        }
     }
 }
 
