@@ -19,7 +19,7 @@ packages=(
   libgtest-dev libgmock-dev
   # the peers of our statistics (tests/statistics/peers.py): 28 MB to fetch
   python3-scipy python3-statsmodels
-  # faces in video (mimik-video): optional for the build
+  # faces in video (mimik-video): optional for the build; libdlib-dev libdlib-data add another tracker, if you want it
   libopencv-dev opencv-data
 )
 for option in "$@"; do
