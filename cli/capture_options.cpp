@@ -19,7 +19,7 @@ void add_capture_options(CLI::App& command, CaptureArguments& arguments) {
                        "Distance of the performer's outer eye corners; else that of the mean face, 87.3");
     command.add_option("--neutral", arguments.neutral, "Frames A:B, B not among them, in which the face is at rest")
         ->capture_default_str();
-    command.add_option("--tracker", arguments.tracker, "What follows the face: paper")->capture_default_str();
+    command.add_option("--tracker", arguments.tracker, "What follows the face: paper or dlib")->capture_default_str();
     command.add_option("--colours", arguments.colours, "Colour network of the performer (mimik-video train)");
     command.add_flag("--smooth", arguments.smooth, "One-euro filter; what is still lags by 80 ms, what moves by less");
     command.add_option("--frames", arguments.frames, "Stops after so many; 0: at the end")->capture_default_str();

@@ -22,6 +22,7 @@
 #include "cli/terminal.h"
 #include "io/json_values.h"
 #include "video/colour_network.h"
+#include "video/dlib_tracker.h"
 #include "video/paper_tracker.h"
 #include "video/rendered_performance.h"
 #include "video/track_video.h"
@@ -33,8 +34,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::unique_ptr<video::FeatureTracker> tracker_of(const CaptureArguments& arguments) {
+    if (arguments.tracker == "dlib") return video::make_dlib_tracker();
     if (arguments.tracker != "paper")
-        throw InputError(fmt::format("--tracker is '{}'; this build has: paper", arguments.tracker));
+        throw InputError(fmt::format("--tracker is '{}'; there are paper and dlib", arguments.tracker));
     auto network =
         arguments.colours.empty() ? video::ColourNetwork::shipped() : video::ColourNetwork::load(arguments.colours);
     return video::make_paper_tracker(std::make_shared<const video::ColourNetwork>(std::move(network)));

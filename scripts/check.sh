@@ -69,7 +69,7 @@ check_rules() {
   local room header
   # Adapters are there for these libraries; no other header includes them.
   find "${rooms[@]}" -name '*.h' ! -path 'adapters/*' -print0 | xargs -0 grep -nE \
-    '#include [<"](pcl|CGAL|vtk|opencv2|embree3|hwy|sqlite3|png|jpeglib|zlib|lzf|pugixml|nanoflann|toml\+\+|tbb|X11|EGL|GL)[./>A-Z_a-z]' &&
+    '#include [<"](pcl|CGAL|vtk|opencv2|dlib|embree3|hwy|sqlite3|png|jpeglib|zlib|lzf|pugixml|nanoflann|toml\+\+|tbb|X11|EGL|GL)[./>A-Z_a-z]' &&
     fail "rules: heavy libraries stay in .cpp files: see above"
   for room in "${rooms[@]}"; do
     [ "$room" = cli ] || [ "$room" = adapters ] && continue

@@ -3,7 +3,7 @@
 # built and run with; does nothing where they are there. --check adds what scripts/check.sh needs (clang tools), --bench
 # what scripts/bench.sh compares with, --adapters the two libraries of adapters/ and companions/ that nothing else needs,
 # --page npm where none is on the PATH: it bundles the page of an experiment; --browser what tests that page; --video
-# OpenCV, for mimik-video. Needs root or sudo to install.
+# OpenCV, for mimik-video (libdlib-dev and libdlib-data add another tracker, if you want it). Needs root or sudo to install.
 set -euo pipefail
 
 packages=(

@@ -157,9 +157,11 @@ std::vector<SnakeLevel> snake_levels(const FloatImage& image, std::span<const do
         SnakeLevel level{FloatImage(image.width, image.height), FloatImage(image.width, image.height)};
         cv::Mat smooth(image.height, image.width, CV_32FC1, level.intensity.values.data());
         cv::Mat edge(image.height, image.width, CV_32FC1, level.edge.values.data()), across, down;
-        if (blur > 0)
-            cv::GaussianBlur(from, smooth, cv::Size(), blur, blur, cv::BORDER_REPLICATE);
-        else
+        if (blur > 0) {
+            // 2.5 standard deviations to each side; OpenCV would take 4.
+            const int size = 2 * static_cast<int>(std::ceil(2.5 * blur)) + 1;
+            cv::GaussianBlur(from, smooth, cv::Size(size, size), blur, blur, cv::BORDER_REPLICATE);
+        } else
             from.copyTo(smooth);
         cv::Sobel(smooth, across, CV_32F, 1, 0, 3, 1.0 / 8, 0, cv::BORDER_REPLICATE);
         cv::Sobel(smooth, down, CV_32F, 0, 1, 3, 1.0 / 8, 0, cv::BORDER_REPLICATE);

@@ -70,24 +70,22 @@ FittedHead::FittedHead(const Points68& neutral, const Known68& known, int image_
       centre_y_(0.5 * (image_height - 1)) {
     options.check();
     const double size = options.outer_eyes_mm.value_or(mean_face_outer_eyes_mm()) / mean_face_outer_eyes_mm();
-    std::vector<cv::Point3d> head;
-    std::vector<cv::Point2d> pixels;
-    for (std::size_t k = 0; k < 68; ++k) {
-        points_mm_[k] *= size;
-        if (!known[k]) continue;
-        head.emplace_back(points_mm_[k].x(), points_mm_[k].y(), points_mm_[k].z());
-        pixels.emplace_back(neutral[k].x(), neutral[k].y());
-    }
-    const double eyes_px = std::max(1.0, (neutral[45] - neutral[36]).norm());
-    const double distance_mm = focal_px_ * size * mean_face_outer_eyes_mm() / eyes_px;
-    const auto pose = solve(head, pixels, focal_px_, centre_x_, centre_y_, frontal(distance_mm));
-    if (!pose) throw NumericalError("no pose of a head explains the neutral face; name other frames with --neutral");
+    for (auto& p : points_mm_) p *= size;
+    // A performer at rest looks into the camera: from points whose depth nobody knows, a turn could not be told from
+    // another face. The tilt is seen.
+    const Pixel across = neutral[45] - neutral[36], middle_px = 0.5 * (neutral[36] + neutral[45]);
+    const double distance_mm = focal_px_ * size * mean_face_outer_eyes_mm() / std::max(1.0, across.norm());
+    const Eigen::AngleAxisd turn(Eigen::AngleAxisd(std::atan2(across.y(), across.x()), Eigen::Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(EIGEN_PI, Eigen::Vector3d::UnitX()));
+    const capture::HeadPose pose{turn.angle() * turn.axis(),
+                                 distance_mm * Eigen::Vector3d((middle_px.x() - centre_x_) / focal_px_,
+                                                               (middle_px.y() - centre_y_) / focal_px_, 1)};
     // The known points go to their rays. What of the others is width and height follows them.
     Eigen::Vector2d own = Eigen::Vector2d::Zero(), mean = own;
     const auto before = points_mm_;
     for (std::size_t k = 0; k < 68; ++k) {
         if (!known[k]) continue;
-        points_mm_[k] = head_point_mm(k, neutral[k], *pose);
+        points_mm_[k] = head_point_mm(k, neutral[k], pose);
         for (int axis = 0; axis < 2; ++axis) {
             own[axis] += points_mm_[k][axis] * before[k][axis];
             mean[axis] += before[k][axis] * before[k][axis];

@@ -31,8 +31,7 @@ using Known68 = std::array<bool, 68>;
 /// one camera does not see, stays the mean face's.
 class FittedHead {
 public:
-    /// @param neutral  the points of a neutral face, in pixels
-    /// @throws NumericalError if no pose explains them
+    /// @param neutral  the points, in pixels, of a neutral face that looks into the camera; its head may be tilted
     FittedHead(const Points68& neutral, const Known68& known, int image_width, int image_height,
                const CameraOptions& options = {});
 

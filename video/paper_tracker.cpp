@@ -56,7 +56,7 @@ double hold(std::size_t curve) {
     switch (static_cast<FaceCurve>(curve)) {
         case nostril_right:
         case nostril_left:
-            return 0.25;
+            return 0.08;
         case lid_right_upper:
         case lid_right_lower:
         case lid_left_upper:

@@ -99,11 +99,7 @@ private:
                 }
         if (count == 0) return;
         for (auto& p : sum) p /= count;
-        try {
-            head_.emplace(sum, known, width_, height_, options_.camera);
-        } catch (const NumericalError&) {
-            head_.reset();  // the next face may do
-        }
+        head_.emplace(sum, known, width_, height_, options_.camera);
     }
 
     void flush() {

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# capture.sh MIMIK FOLDER: a performance is rendered, captured and written; what is no video is refused by name.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
+
+mkdir -p alone
+cp "$mimik" alone/mimik
+expect_code 2 "install libopencv-dev and opencv-data" alone/mimik capture take.mp4 -o motion.csv
+rm -r alone
+expect_code 2 "--output is 'motion.txt'; it is written as .csv" "$mimik" capture take.mp4 -o motion.txt
+expect_code 2 "--neutral is '5'; give two frames A:B" "$mimik" capture take.mp4 -o motion.csv --neutral 5
+claim "without OpenCV's program it is said what to install, and options are checked before"
+
+video=$(dirname "$mimik")/mimik-video
+if [ ! -x "$video" ]; then
+  echo "mimik-video is not built: the rest is left out"
+  exit 0
+fi
+"$video" render -o made --frames 4 --fps 25 --width 480 --height 360 >/dev/null
+[ "$(wc -l <made_points.csv)" = 5 ] || fail "made_points.csv: $(wc -l <made_points.csv) lines"
+"$mimik" capture made.mp4 -o motion.csv --neutral 0:2 --landmarks68 points.csv --sheet sheet.png --video seen.mp4 --json >said.json
+python3 - said.json <<'CHECK' || fail "$(cat said.json)"
+import json, sys
+d = json.load(open(sys.argv[1]))
+assert d["schema"] == 1 and d["frames"] == 4 and d["tracked"] == 4 and d["rate_hz"] == 25, d
+CHECK
+[ "$(wc -l <motion.csv)" = 6 ] || fail "motion.csv: $(wc -l <motion.csv) lines"
+[ "$(head -1 points.csv | cut -d, -f1-4)" = frame,detected,x0,y0 ] || fail "$(head -1 points.csv)"
+[ "$(wc -l <points.csv)" = 5 ] || fail "points.csv: $(wc -l <points.csv) lines"
+[ -s sheet.png ] && [ -s seen.mp4 ] || fail "no sheet or no video"
+"$mimik" capture made.mp4 -o again.csv --neutral 0:2 --quiet
+cmp motion.csv again.csv
+claim "every frame has a row, and the same video gives the same bytes"
+
+mkdir -p frames
+cp sheet.png frames/frame_000000.png
+cp sheet.png frames/frame_000001.png
+"$video" write frames out.mp4 --fps 10 >/dev/null
+[ -s out.mp4 ] || fail "no out.mp4"
+expect_code 2 "frames2: is no folder" "$video" write frames2 out.mp4
+claim "a folder of pictures is written as a video"
+
+"$video" train made.mp4 made_points.csv -o colours.yml >/dev/null
+"$mimik" capture made.mp4 -o own.csv --neutral 0:2 --colours colours.yml --quiet
+expect_code 2 "not a colour network of Mimik" "$mimik" capture made.mp4 -o own.csv --colours made_points.csv
+claim "a performer's own colours are learnt and used"
+
+echo "no video" >text.mp4
+head -c 2000 made.mp4 >cut.mp4
+expect_code 2 "text.mp4: no frame can be decoded" "$mimik" capture text.mp4 -o o.csv
+expect_code 2 "cut.mp4: no frame can be decoded" "$mimik" capture cut.mp4 -o o.csv
+expect_code 2 "nowhere.mp4: there is no such file" "$mimik" capture nowhere.mp4 -o o.csv
+expect_code 2 "--tracker is 'best'" "$mimik" capture made.mp4 -o o.csv --tracker best
+[ ! -e o.csv ] || fail "o.csv was left"
+claim "what is no video is refused and leaves no table"
