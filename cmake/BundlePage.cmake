@@ -6,7 +6,7 @@ file(SHA256 ${SOURCE}/package-lock.json lock)
 set(stamp ${WORK}/node_modules/.mimik-${lock})
 if(NOT EXISTS ${stamp})
   file(COPY ${SOURCE}/package.json ${SOURCE}/package-lock.json ${SOURCE}/.npmrc DESTINATION ${WORK})
-  execute_process(COMMAND ${NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
+  execute_process(COMMAND ${NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error --fetch-retries=1 --fetch-timeout=30000
     WORKING_DIRECTORY ${WORK} RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE fault)
   if(NOT code EQUAL 0)
     string(STRIP "${fault}" fault)

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# setup.sh [--check] [--bench] [--adapters] [--page] [--browser] [--video]: installs the Debian 12 packages that Mimik is
-# built and run with; does nothing where they are there. --check adds what scripts/check.sh needs (clang tools), --bench
-# what scripts/bench.sh compares with, --adapters the two libraries of adapters/ and companions/ that nothing else needs,
-# --page npm where none is on the PATH: it bundles the page of an experiment; --browser what tests that page; --video
-# OpenCV, for mimik-video (libdlib-dev and libdlib-data add another tracker, if you want it). Needs root or sudo to install.
+# setup.sh [--check] [--bench] [--adapters] [--page] [--browser] [--video] [--slurm]: installs the Debian 12 packages that
+# Mimik is built and run with; does nothing where they are there. --check adds what scripts/check.sh needs (clang tools),
+# --bench what scripts/bench.sh compares with, --adapters the two libraries of adapters/ and companions/ that nothing else
+# needs, --page npm where none is on the PATH: it bundles the page of an experiment; --browser what tests that page;
+# --video OpenCV, for mimik-video (libdlib-dev and libdlib-data add another tracker, if you want it); --slurm a Slurm for
+# the test that starts one. Needs root or sudo to install.
 set -euo pipefail
 
 packages=(
@@ -21,8 +22,6 @@ packages=(
   libgtest-dev libgmock-dev
   # the peers of our statistics (tests/statistics/peers.py): 28 MB to fetch
   python3-scipy python3-statsmodels
-  # a Slurm of its own for tests/cli/slurm.sh: 3 MB to fetch
-  slurmctld slurmd slurm-client munge
 )
 for option in "$@"; do
   case "$option" in
@@ -32,7 +31,8 @@ for option in "$@"; do
     --page) command -v npm >/dev/null || packages+=(nodejs npm) ;;
     --browser) packages+=(chromium) ;;
     --video) packages+=(libopencv-dev opencv-data) ;;
-    *) echo "setup.sh: there is no option '$option'; there are --check, --bench, --adapters, --page, --browser and --video" >&2; exit 2 ;;
+    --slurm) packages+=(slurmctld slurmd slurm-client munge) ;;
+    *) echo "setup.sh: there is no option '$option'; there are --check, --bench, --adapters, --page, --browser, --video and --slurm" >&2; exit 2 ;;
   esac
 done
 

@@ -6,7 +6,7 @@ browser_test=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/page/page_in_chrom
 source "$(dirname "${BASH_SOURCE[0]}")/claims.sh"
 
 chromium=$(command -v chromium || true)
-[ -n "$chromium" ] || { echo "skipped: there is no chromium (scripts/setup.sh --page)"; exit 77; }
+[ -n "$chromium" ] || { echo "skipped: there is no chromium (scripts/setup.sh --browser)"; exit 77; }
 command -v node >/dev/null || { echo "skipped: there is no node (scripts/setup.sh --page)"; exit 77; }
 [ -s "$(dirname "$mimik")/../share/mimik/report/page.js" ] || { echo "skipped: the page's script was not built"; exit 77; }
 
