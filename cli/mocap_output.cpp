@@ -14,6 +14,7 @@
 #include "capture/control_surface.h"
 #include "cli/figure_start.h"
 #include "io/glb.h"
+#include "io/landmark_io.h"
 #include "io/mesh_io.h"
 #include "report/figure_description.h"
 
