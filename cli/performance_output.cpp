@@ -16,7 +16,6 @@
 namespace mimik::cli {
 namespace {
 
-
 std::string kind_of(const std::filesystem::path& output) { return base::lower_case(output.extension().string()); }
 
 std::vector<std::vector<geometry::Vector>> displacements(const animation::FacialExamples& character) {
