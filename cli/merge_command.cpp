@@ -114,8 +114,9 @@ void merge(const Arguments& arguments, const ExperimentFolder& folder) {
     auto report = evaluation::run_experiment(reader, catalogue, experiment.plan, store, {});
     report.failures.insert(report.failures.begin(), unusable.begin(), unusable.end());
     if (!run.common.quiet) say_notes(report.remarks);
+    for (auto& failure : write_per_vertex(folder.root(), file, reader, catalogue, experiment.plan))
+        report.failures.push_back(std::move(failure));
     write_results(folder, store, file, report);
-    write_per_vertex(folder.root(), file, reader, catalogue, experiment.plan);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     base::write_atomically(folder.provenance(),
                            merged_provenance(arguments, file, place, provenances(folder, arguments.shards), seconds));

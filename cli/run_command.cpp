@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -293,8 +294,9 @@ int run(const Arguments& arguments) {
             auto report = run_units(arguments, reader, catalogue, experiment.plan, store);
             report.failures.insert(report.failures.begin(), unusable.begin(), unusable.end());
             if (!arguments.common.quiet) say_notes(report.remarks);
+            for (auto& failure : write_per_vertex(folder.root(), file, reader, catalogue, experiment.plan))
+                report.failures.push_back(std::move(failure));
             write_results(folder, store, file, report);
-            write_per_vertex(folder.root(), file, reader, catalogue, experiment.plan);
         }
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         base::write_atomically(folder.provenance(), provenance(arguments, file, place, seconds));

@@ -99,6 +99,14 @@ expect_code 2 "method 'thesis' is not run" "$mimik" run bad.toml -o x
 sed 's/bs001:12:sparse:bs002/bs001:12/' vertices.toml >bad.toml
 expect_code 2 "bad.toml:7: case 'bs001:12' is none; give TARGET:EXPRESSION:METHOD" "$mimik" run bad.toml -o x
 rm -rf x
+# A scan that cannot be read costs its own file and no more.
+cp -r work1 work2
+face=$(find work2/faces -name 'bs000_LFAU_12_0.ply')
+head -c 1000 "$face" >cut.ply
+mv cut.ply "$face"
+sed 's/work1/work2/; s/^expressions.*/expressions = ["12", "4"]/; s/^per_vertex.*/per_vertex = ["bs000:12:sparse", "bs000:4:sparse:bs001"]/' vertices.toml >cut.toml
+expect_code 1 "no case of target 'bs000' and expression '12'" "$mimik" run cut.toml -o cut
+[ "$(ls cut/per_vertex | tr '\n' ' ')" = "bs000_4_sparse_bs001.ply cases.csv " ] && [ -e cut/manifest.json ] || { ls cut cut/per_vertex; fail "the cases of a cut scan"; }
 claim "errors per vertex are those whose mean is the row, from shards, too"
 
 # Somebody else's files stay, those of shards go.
