@@ -11,7 +11,7 @@ workspace = "work1"
 expressions = ["12", "4"]
 methods = ["thesis", "sparse-mean"]
 END
-results="experiment.json rows.csv rows.sqlite scores.json scores.csv summary.md tables/explained.tex tables/error_mm.tex tables/intervals.tex statistics/methods.csv statistics/differences.csv manifest.json"
+results="experiment.json rows.csv rows.sqlite scores.json scores.csv summary.md tables/explained.tex tables/error_mm.tex tables/intervals.tex statistics/methods.csv statistics/differences.csv statistics/source_dependence.csv manifest.json"
 begun=$(date +%s%N)
 "$mimik" run smile.toml -o whole --quiet >/dev/null
 took_ms=$((($(date +%s%N) - begun) / 1000000))

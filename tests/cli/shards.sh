@@ -11,7 +11,7 @@ workspace = "work1"
 expressions = ["12", "4"]
 methods = ["thesis", "sparse-mean"]
 END
-results="experiment.json rows.csv rows.sqlite scores.json scores.csv summary.md tables/explained.tex tables/error_mm.tex tables/intervals.tex statistics/methods.csv statistics/differences.csv manifest.json"
+results="experiment.json rows.csv rows.sqlite scores.json scores.csv summary.md tables/explained.tex tables/error_mm.tex tables/intervals.tex statistics/methods.csv statistics/differences.csv statistics/source_dependence.csv manifest.json"
 expect_same() {  # folder, folder
   local file
   for file in $results; do cmp "$1/$file" "$2/$file" || fail "$file of $2 is another"; done
@@ -128,4 +128,14 @@ for k in 1 2; do "$mimik" run fresh.toml -o fresh --shard $k/2 --quiet >/dev/nul
 expect_same fresh1 fresh
 sed 's/"12"/"4"/' fresh.toml >fresh4.toml
 expect_code 2 "preprocessed.json: other expressions were preprocessed" "$mimik" run fresh4.toml -o fresh --shard 1/2
+mkdir db2
+expect_code 2 "preprocessed.json: scans of '$PWD/db1' were preprocessed, not of '$PWD/db2'" "$mimik" run fresh.toml --database db2 -o fresh --shard 1/2
+"$mimik" run fresh.toml --database db1/ -o fresh --shard 1/2 --quiet >/dev/null
+# The folder is whole: a shard whose rows were removed is made again.
+cp fresh/shards/1-of-2.rows first.rows
+rm fresh/shards/1-of-2.rows
+"$mimik" run fresh.toml -o fresh --shard 1/2 --quiet >/dev/null
+cmp first.rows fresh/shards/1-of-2.rows
+"$mimik" run fresh.toml -o fresh --anew --quiet >/dev/null
+[ ! -e fresh/preprocessed.json ] && [ ! -e fresh/faces.json ] || fail "--anew leaves marks of shards"
 claim "preprocessing is done once, and asked for where it is missing"

@@ -48,7 +48,7 @@ missing=$("$mimik" merge out --shards 3 --list-missing)
 MIMIK_WAIT=1 "$submit" many.toml out 3 --no-requeue >submit.txt 2>&1 || { cat submit.txt out/log/*; fail "the second call"; }
 grep -q "^submitted shards $missing of 3" submit.txt || { cat submit.txt; fail "other shards than the missing"; }
 grep -q ' of an earlier attempt) in ' "out/log/shard-$index.txt" || { cat out/log/*; fail "units were done again"; }
-for file in experiment.json rows.csv rows.sqlite scores.json scores.csv summary.md tables/explained.tex tables/error_mm.tex tables/intervals.tex statistics/methods.csv statistics/differences.csv manifest.json; do
+for file in experiment.json rows.csv rows.sqlite scores.json scores.csv summary.md tables/explained.tex tables/error_mm.tex tables/intervals.tex statistics/methods.csv statistics/differences.csv statistics/source_dependence.csv manifest.json; do
   cmp "whole/$file" "out/$file" || fail "$file is another than that of a local run"
 done
 "$submit" many.toml out 3 >submit.txt
