@@ -12,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/experiment_folder.h"
 #include "evaluation/run_comparison.h"
+#include "io/json_values.h"
 #include "report/rows_files.h"
 #include "report/run_comparison_table.h"
 
@@ -93,7 +94,7 @@ int run(const Arguments& arguments) {
     const auto comparison = evaluation::compare_runs(named_runs(arguments), arguments.options);
     if (!arguments.output.empty()) base::write_atomically(arguments.output, report::run_comparison_csv(comparison));
     if (arguments.common.json)
-        std::cout << to_json(comparison).dump(1) << "\n";
+        std::cout << io::json_text(to_json(comparison));
     else
         std::cout << report::to_markdown(comparison, arguments.options);
     return exit_done;

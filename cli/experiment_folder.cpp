@@ -40,6 +40,7 @@ constexpr std::array result_names = {"experiment.json",
                                      "summary.md",
                                      "statistics/differences.csv",
                                      "statistics/methods.csv",
+                                     "statistics/source_dependence.csv",
                                      "tables/error_mm.tex",
                                      "tables/explained.tex",
                                      "tables/intervals.tex"};
@@ -215,7 +216,7 @@ void ExperimentFolder::clear() const {
     std::error_code none;
     for (const auto& file : results_in(root_)) fs::remove(file, none);
     for (const auto& file : files_of_shards(root_)) fs::remove(file, none);
-    fs::remove(provenance(), none);
+    for (const auto& file : {provenance(), face_digests(), preprocessing_mark()}) fs::remove(file, none);
     fs::remove(page(), none);
     for (const auto* folder : {"statistics", "tables", "per_vertex", "shards"})
         fs::remove(root_ / folder, none);  // where empty

@@ -34,6 +34,7 @@ public:
     [[nodiscard]] std::filesystem::path summary() const { return root_ / "summary.md"; }
     [[nodiscard]] std::filesystem::path provenance() const { return root_ / "provenance.json"; }
     [[nodiscard]] std::filesystem::path face_digests() const { return root_ / "faces.json"; }
+    [[nodiscard]] std::filesystem::path preprocessing_mark() const { return root_ / "preprocessed.json"; }
     [[nodiscard]] std::filesystem::path manifest() const { return root_ / "manifest.json"; }
     [[nodiscard]] std::filesystem::path page() const { return root_ / "report.html"; }
 

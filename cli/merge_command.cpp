@@ -19,6 +19,7 @@
 #include "cli/experiment_folder.h"
 #include "cli/notes.h"
 #include "cli/per_vertex_files.h"
+#include "cli/report_page.h"
 #include "cli/run_steps.h"
 #include "cli/shard_files.h"
 #include "evaluation/case_store.h"
@@ -89,10 +90,11 @@ std::string merged_provenance(const Arguments& arguments, const evaluation::Expe
     document["shards"] = arguments.shards;
     document["seconds_of_shards"] = seconds_of_shards;  // of the last attempt of each
     document["hosts_of_shards"] = hosts;
-    return document.dump(1) + "\n";
+    return io::json_text(document);
 }
 
-void merge(const Arguments& arguments, const ExperimentFolder& folder) {
+/// @return why there is no page; empty: there is one, or there can be none
+std::string merge(const Arguments& arguments, const ExperimentFolder& folder) {
     const auto start = std::chrono::steady_clock::now();
     const auto& run = arguments.run;
     auto file = evaluation::read_experiment_file(run.file);
@@ -114,12 +116,14 @@ void merge(const Arguments& arguments, const ExperimentFolder& folder) {
     auto report = evaluation::run_experiment(reader, catalogue, experiment.plan, store, {});
     report.failures.insert(report.failures.begin(), unusable.begin(), unusable.end());
     if (!run.common.quiet) say_notes(report.remarks);
+    for (auto& failure : write_per_vertex(folder.root(), file, reader, catalogue, experiment.plan))
+        report.failures.push_back(std::move(failure));
     write_results(folder, store, file, report);
-    write_per_vertex(folder.root(), file, reader, catalogue, experiment.plan);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     base::write_atomically(folder.provenance(),
                            merged_provenance(arguments, file, place, provenances(folder, arguments.shards), seconds));
     folder.seal();
+    return make_page(run.common, folder, run.file, catalogue, reader, experiment.plan);
 }
 
 int run(Arguments arguments) {
@@ -153,8 +157,11 @@ int run(Arguments arguments) {
                     ? arguments.run.file
                     : io::read_field<std::string>(shards.front(), "experiment"));
     complete(arguments.run, shards, folder);
-    merge(arguments, folder);
-    return say_result(arguments.run, folder);
+    const auto no_page = merge(arguments, folder);
+    const int code = say_result(arguments.run, folder);
+    if (no_page.empty()) return code;
+    say_failures({no_page});
+    return exit_done_with_failures;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "cli/per_vertex_files.h"
 
 #include <algorithm>
+#include <exception>
 #include <fstream>
 #include <map>
 #include <string>
@@ -11,6 +12,7 @@
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "evaluation/experiment.h"
 #include "evaluation/per_vertex.h"
 #include "io/mesh_io.h"
@@ -85,10 +87,11 @@ void check_per_vertex(const evaluation::ExperimentFile& file, const ExperimentPl
             throw InputError(fmt::format("{}: case \"{}\": {}", file.place("output.per_vertex"), choice.text(), why));
 }
 
-void write_per_vertex(const fs::path& root, const evaluation::ExperimentFile& file,
-                      const evaluation::PerformanceReader& reader, const facs::FacsCatalogue& catalogue,
-                      const ExperimentPlan& plan) {
-    if (file.per_vertex.empty()) return;
+std::vector<std::string> write_per_vertex(const fs::path& root, const evaluation::ExperimentFile& file,
+                                          const evaluation::PerformanceReader& reader,
+                                          const facs::FacsCatalogue& catalogue, const ExperimentPlan& plan) {
+    std::vector<std::string> failures;
+    if (file.per_vertex.empty()) return failures;
     std::map<std::pair<std::string, std::string>, std::vector<CaseChoice>> by_unit;  // expression, target
     for (const auto& choice : file.per_vertex) by_unit[{choice.expression, choice.target}].push_back(choice);
     std::string list = std::string(list_header) + "\n";
@@ -99,15 +102,27 @@ void write_per_vertex(const fs::path& root, const evaluation::ExperimentFile& fi
             return std::none_of(wanted.begin(), wanted.end(),
                                 [&](const auto& choice) { return has_method(choice, *method, plan); });
         });
-        evaluation::visit_cases(reader, catalogue, own, unit.first, unit.second,
-                                [&](const CaseKey& key, const evaluation::JudgedFace& face) {
-                                    const bool asked =
-                                        std::any_of(wanted.begin(), wanted.end(),
-                                                    [&](const CaseChoice& choice) { return choice.fits(key); });
-                                    if (asked) list += write_case(root, key, face);
-                                });
+        std::exception_ptr not_written;  // a full disk is no failure of the scan
+        const auto write = [&](const CaseKey& key, const evaluation::JudgedFace& face) {
+            if (not_written ||
+                std::none_of(wanted.begin(), wanted.end(), [&](const CaseChoice& choice) { return choice.fits(key); }))
+                return;
+            try {
+                list += write_case(root, key, face);
+            } catch (...) {
+                not_written = std::current_exception();
+            }
+        };
+        try {
+            evaluation::visit_cases(reader, catalogue, own, unit.first, unit.second, write);
+        } catch (const InputError& e) {
+            failures.push_back(fmt::format("per_vertex/: no case of target {} and expression '{}': {}",
+                                           base::in_quotes(unit.second), unit.first, e.what()));
+        }
+        if (not_written) std::rethrow_exception(not_written);
     }
     base::write_atomically(list_in(root), list);
+    return failures;
 }
 
 std::vector<fs::path> per_vertex_files(const fs::path& root) {

@@ -1,17 +1,17 @@
 #include "cli/report_page.h"
 
 #include <cstdlib>
-#include <fstream>
+#include <exception>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
 #include "base/file.h"
-#include "base/text.h"
-#include "evaluation/case_row.h"
+#include "cli/notes.h"
 #include "io/json_values.h"
 #include "report/experiment_page.h"
+#include "report/rows_files.h"
 
 namespace mimik::cli {
 namespace fs = std::filesystem;
@@ -32,22 +32,10 @@ std::string why_no_page() {
         script.string());
 }
 
-void read_rows_csv(const fs::path& file, const std::function<void(const evaluation::CaseRow&)>& visit) {
-    std::ifstream in(file, std::ios::binary);
-    std::string line;
-    if (!std::getline(in, line) || line != evaluation::case_row_header())
-        throw InputError(fmt::format("{}: is no table of rows; run the experiment again", file.string()));
-    while (std::getline(in, line)) {
-        const auto row = evaluation::decode_case_row(line);
-        if (!row) throw InputError(fmt::format("{}: {} is no row", file.string(), base::in_quotes(line)));
-        visit(*row);
-    }
-}
-
 std::vector<std::string> write_page(const ExperimentFolder& folder, const std::string& title,
                                     const facs::FacsCatalogue& catalogue, const evaluation::PerformanceReader* reader,
                                     const evaluation::ExperimentPlan* plan, const report::PageFacesOptions& options) {
-    const auto read = [&](const auto& visit) { read_rows_csv(folder.rows(), visit); };
+    const auto read = [&](const auto& visit) { report::read_rows_csv(folder.rows(), visit); };
     const auto parts = report::read_page_parts(page_parts_folder());
     report::PageExperiment experiment;
     experiment.title = title;
@@ -71,6 +59,22 @@ std::vector<std::string> write_page(const ExperimentFolder& folder, const std::s
     const auto data = report::page_data(read, experiment, catalogue);
     base::write_atomically(folder.page(), report::experiment_page(parts, experiment, data, faces));
     return experiment.remarks;
+}
+
+std::string make_page(const Common& common, const ExperimentFolder& folder, const fs::path& file,
+                      const facs::FacsCatalogue& catalogue, const evaluation::PerformanceReader& reader,
+                      const evaluation::ExperimentPlan& plan) {
+    if (const auto missing = why_no_page(); !missing.empty()) {
+        if (!common.quiet) say_notes({missing});
+        return {};
+    }
+    try {
+        const auto remarks = write_page(folder, file.stem().string(), catalogue, &reader, &plan, {});
+        if (!common.quiet && !common.json) say_notes(remarks);
+    } catch (const std::exception& e) {
+        return fmt::format("{}: not made: {}", folder.page().string(), e.what());
+    }
+    return {};
 }
 
 }  // namespace mimik::cli

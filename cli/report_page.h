@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/command.h"
 #include "cli/experiment_folder.h"
-#include "evaluation/case_row.h"
 #include "evaluation/comparison.h"
 #include "report/page_faces.h"
 
@@ -18,13 +18,18 @@ namespace mimik::cli {
 /// Why there can be no page, and how to get one; empty: the page's script is there.
 [[nodiscard]] std::string why_no_page();
 
-/// The rows of rows.csv, in its order. @throws InputError if it is no table of rows.
-void read_rows_csv(const std::filesystem::path& file, const std::function<void(const evaluation::CaseRow&)>& visit);
-
 /// Writes OUT/report.html of a finished experiment. @param planned  of its workspace; null: a page without faces
 /// @return what is not on the page, and why. @throws InputError if a file of the folder is not as a run left it.
 std::vector<std::string> write_page(const ExperimentFolder& folder, const std::string& title,
                                     const facs::FacsCatalogue& catalogue, const evaluation::PerformanceReader* reader,
                                     const evaluation::ExperimentPlan* plan, const report::PageFacesOptions& options);
+
+/// The page at the end of a run or a merge, where it can be made. What keeps it from being made spoils no result.
+/// @param file  the experiment's, which names the page
+/// @return the fault; empty: none
+[[nodiscard]] std::string make_page(const Common& common, const ExperimentFolder& folder,
+                                    const std::filesystem::path& file, const facs::FacsCatalogue& catalogue,
+                                    const evaluation::PerformanceReader& reader,
+                                    const evaluation::ExperimentPlan& plan);
 
 }  // namespace mimik::cli

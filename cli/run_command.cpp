@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -148,17 +149,16 @@ std::string provenance(const Arguments& arguments, const evaluation::ExperimentF
     if (::gethostname(host.data(), host.size() - 1) != 0) host = "unknown";
     host = host.c_str();  // up to its end
     const auto absolute = [](const fs::path& path) { return path.empty() ? "" : fs::absolute(path).string(); };
-    return nlohmann::ordered_json{{"schema", 1},
-                                  {"command", command_line()},
-                                  {"host", host},
-                                  {"ended", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
-                                  {"seconds_of_this_run", seconds},
-                                  {"threads", base::thread_count()},
-                                  {"experiment", absolute(arguments.file)},
-                                  {"database", absolute(file.database)},
-                                  {"workspace", absolute(workspace)}}
-               .dump(1) +
-           "\n";
+    return io::json_text(
+        nlohmann::ordered_json{{"schema", 1},
+                               {"command", command_line()},
+                               {"host", host},
+                               {"ended", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+                               {"seconds_of_this_run", seconds},
+                               {"threads", base::thread_count()},
+                               {"experiment", absolute(arguments.file)},
+                               {"database", absolute(file.database)},
+                               {"workspace", absolute(workspace)}});
 }
 
 namespace {
@@ -239,23 +239,6 @@ evaluation::ExperimentReport run_units(const Arguments& arguments, const evaluat
     return evaluation::run_experiment(reader, catalogue, plan, store, watch);
 }
 
-/// The page of the results, where it can be made. What keeps it from being made spoils no result. @return the fault
-std::string make_page(const Arguments& arguments, const ExperimentFolder& folder, const facs::FacsCatalogue& catalogue,
-                      const evaluation::PerformanceReader& reader, const evaluation::ExperimentPlan& plan) {
-    if (const auto missing = why_no_page(); !missing.empty()) {
-        if (!arguments.common.quiet) say_notes({missing});
-        return {};
-    }
-    try {
-        const auto remarks =
-            write_page(folder, fs::path(arguments.file).stem().string(), catalogue, &reader, &plan, {});
-        if (!arguments.common.quiet && !arguments.common.json) say_notes(remarks);
-    } catch (const std::exception& e) {
-        return fmt::format("{}: not made: {}", folder.page().string(), e.what());
-    }
-    return {};
-}
-
 int run(const Arguments& arguments) {
     if (arguments.only_preprocess) return run_only_preprocess(arguments);
     if (!arguments.shard.empty()) return run_shard(arguments);
@@ -293,8 +276,9 @@ int run(const Arguments& arguments) {
             auto report = run_units(arguments, reader, catalogue, experiment.plan, store);
             report.failures.insert(report.failures.begin(), unusable.begin(), unusable.end());
             if (!arguments.common.quiet) say_notes(report.remarks);
+            for (auto& failure : write_per_vertex(folder.root(), file, reader, catalogue, experiment.plan))
+                report.failures.push_back(std::move(failure));
             write_results(folder, store, file, report);
-            write_per_vertex(folder.root(), file, reader, catalogue, experiment.plan);
         }
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         base::write_atomically(folder.provenance(), provenance(arguments, file, place, seconds));
@@ -309,7 +293,8 @@ int run(const Arguments& arguments) {
     std::error_code none;
     fs::remove(folder.part(), none);
     std::string no_page;
-    if (!base::is_there(folder.page())) no_page = make_page(arguments, folder, catalogue, reader, experiment.plan);
+    if (!base::is_there(folder.page()))
+        no_page = make_page(arguments.common, folder, arguments.file, catalogue, reader, experiment.plan);
     const int code = say_result(arguments, folder);
     if (no_page.empty()) return code;
     say_failures({no_page});

@@ -26,7 +26,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path mark_of_preprocessing(const ExperimentFolder& folder) { return folder.root() / "preprocessed.json"; }
+/// "db" and "db/" are one.
+fs::path full_path(const fs::path& folder) {
+    const auto path = fs::absolute(folder).lexically_normal();
+    return path.has_filename() ? path : path.parent_path();
+}
+
+/// @throws InputError if the folder's workspace was made of another database than the one that a shard is to use.
+void require_same_database(const ExperimentFolder& folder, const evaluation::ExperimentFile& file) {
+    const auto mark = folder.preprocessing_mark();
+    const auto document = io::parse_json(base::read_text(mark, io::most_json_bytes), mark.string());
+    const auto found = document.find("database");
+    const fs::path there = found != document.end() && found->is_string() ? found->get<std::string>() : "";
+    const auto own = full_path(file.database);
+    std::error_code none;
+    if (there == own || fs::equivalent(there, own, none)) return;
+    throw InputError(
+        fmt::format("{}: scans of {} were preprocessed, not of {}; give another folder with -o, or that "
+                    "database",
+                    mark.string(), base::in_quotes(there.string()), base::in_quotes(own.string())));
+}
 
 /// Reads every performance and studies it once: what is registered on the way is kept in the workspace, so that no two
 /// shards do it again.
@@ -66,7 +85,7 @@ void write_shard_provenance(const RunArguments& arguments, const evaluation::Exp
         nlohmann::ordered_json::parse(provenance(arguments, file, file.workspace, seconds));  // "": OUT's own
     document["shard"] = files.shard().text();
     document["units_of_this_run"] = units;
-    base::write_atomically(files.provenance(), document.dump(1) + "\n");
+    base::write_atomically(files.provenance(), io::json_text(document));
 }
 
 }  // namespace
@@ -87,8 +106,12 @@ int run_only_preprocess(const RunArguments& arguments) {
     digests_of_faces(workspace, experiment.plan).write(folder.face_digests());
     const auto units = experiment.plan.units();
     const nlohmann::ordered_json document = {
-        {"schema", 1}, {"expressions", file.expressions}, {"failures", unusable}, {"units", units}};
-    base::write_atomically(mark_of_preprocessing(folder), document.dump(1) + "\n");
+        {"schema", 1},
+        {"database", file.workspace.empty() ? full_path(file.database).string() : ""},
+        {"expressions", file.expressions},
+        {"failures", unusable},
+        {"units", units}};
+    base::write_atomically(folder.preprocessing_mark(), io::json_text(document));
     if (arguments.common.json)
         std::cout << io::json_text(document);
     else
@@ -99,7 +122,7 @@ int run_only_preprocess(const RunArguments& arguments) {
 
 std::vector<std::string> unusable_of_preprocessing(const ExperimentFolder& folder,
                                                    const evaluation::ExperimentFile& file) {
-    const auto mark = mark_of_preprocessing(folder);
+    const auto mark = folder.preprocessing_mark();
     const auto mend = fmt::format("run 'mimik run {} -o {} --only-preprocess' once, before all shards", file.name,
                                   folder.root().string());
     if (!base::is_there(mark))
@@ -121,7 +144,10 @@ int run_shard(const RunArguments& arguments) {
     const ExperimentFolder folder(arguments.output);
     const auto catalogue = catalogue_of(file);
     check_output_folder(folder.root(), false);
-    if (file.workspace.empty()) (void)unusable_of_preprocessing(folder, file);
+    if (file.workspace.empty()) {
+        (void)unusable_of_preprocessing(folder, file);
+        require_same_database(folder, file);
+    }
     const preprocessing::Workspace workspace(workspace_of(file, folder));
     const evaluation::PerformanceReader reader(workspace);
     const auto experiment = planned(file, reader, catalogue, InputDigests::read(folder.face_digests()));
@@ -130,8 +156,8 @@ int run_shard(const RunArguments& arguments) {
     ShardFiles files(folder.root(), shard, experiment.identity);
     const auto range = shard.of(experiment.plan.units());
     const auto units = range.end - range.begin;
-    if (folder.whole() || files.whole()) {
-        if (files.whole()) files.check();
+    if (files.whole()) {
+        files.check();
         if (!arguments.common.quiet) std::cerr << fmt::format("shard {}: was run already\n", shard.text());
         return say_shard(arguments, files, units, units, 0);
     }

@@ -123,12 +123,8 @@ int run(const Arguments& arguments) {
     if (arguments.common.json) {
         auto list = nlohmann::ordered_json::array();
         for (const auto& unit : units) list.push_back(to_json(unit));
-        std::cout << nlohmann::ordered_json{{"schema", 1},
-                                            {"method", arguments.method},
-                                            {"units", list},
-                                            {"failures", failures.sorted()}}
-                         .dump(1)
-                  << "\n";
+        std::cout << io::json_text(nlohmann::ordered_json{
+            {"schema", 1}, {"method", arguments.method}, {"units", list}, {"failures", failures.sorted()}});
     } else {
         for (const auto& unit : units) say(unit);
         if (!arguments.output.empty()) std::cout << "\n" << arguments.output << "\n";

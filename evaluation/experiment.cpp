@@ -66,7 +66,10 @@ public:
             first_unit_[planned.expression.code()] = first;
             const std::size_t begin = first;
             for (const auto& id : planned.performances) first += plan_.is_target(id.subject) ? 1 : 0;
-            if (std::max(begin, range_.begin) >= std::min(first, range_.end)) continue;
+            // One that no target shows has no unit, but a cast like all others: whoever begins or ends there stores it.
+            const bool here = begin == first ? range_.begin <= begin && begin <= range_.end
+                                             : std::max(begin, range_.begin) < std::min(first, range_.end);
+            if (!here) continue;
             // Expressions are done one after another: the cast of one says that those before it are whole.
             if (store_.has(cast_unit(planned.expression.code()))) open.clear();
             open.push_back(&planned);

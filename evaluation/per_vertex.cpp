@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/content_hash.h"
 #include "base/errors.h"
 #include "base/text.h"
 
@@ -85,11 +86,15 @@ geometry::Mesh judged_mesh(const JudgedFace& face, const std::vector<double>& er
 std::string file_stem(const CaseKey& key) {
     auto stem = fmt::format("{}_{}_{}", key.target, key.expression, variant_of(key));
     if (!key.source.empty()) stem += "_" + key.source;
+    const auto as_named = stem;
     for (char& c : stem)
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 &&
             std::string_view("_-.@").find(c) == std::string_view::npos)
             c = '-';
-    return stem;
+    if (stem == as_named) return stem;
+    base::ContentHash hash;  // "s 1" and "s-1" are two subjects
+    hash.add(as_named);
+    return stem + "-" + hash.text().substr(0, 8);
 }
 
 }  // namespace mimik::evaluation

@@ -35,7 +35,8 @@ struct CaseChoice {
 /// the neutral face) and `grid_vertex` (its place in the neutral scan's grid).
 [[nodiscard]] geometry::Mesh judged_mesh(const JudgedFace& face, const std::vector<double>& error_mm);
 
-/// "bs000_12_default_bs001", without what a file's name should not hold.
+/// "bs000_12_default_bs001", without what a file's name should not hold; with 8 digits of a hash where that was
+/// replaced.
 [[nodiscard]] std::string file_stem(const CaseKey& key);
 
 }  // namespace mimik::evaluation

@@ -58,10 +58,12 @@ claim "a folder that takes no files is named before any work"
 
 # One expressive scan goes while the run is under way: of whom it was is said, and the others are scored.
 cp -r work1 work2
-sed 's/work1/work2/; s/"12", "4"/"4", "12"/' smile.toml >vanish.toml
-"$mimik" run vanish.toml -o vanish --quiet >/dev/null 2>&1 &
+# One thread and many methods: between the first target of AU 4 and the first look at AU 12 lie two targets.
+sed 's/work1/work2/; s/"12", "4"/"4", "12"/; s/^methods.*/methods = ["thesis", "thesis-half", "default", "mean", "sparse", "displacement-copy", "deformation-transfer"]/' smile.toml >vanish.toml
+echo 'magnitudes = [0.6, 0.8, 1, 1.2]' >>vanish.toml
+"$mimik" run vanish.toml -o vanish --threads 1 --quiet >/dev/null 2>&1 &
 run=$!
-for _ in $(seq 400); do
+for _ in $(seq 3000); do
   { grep -q '^# unit 4 bs000' vanish/rows.part; } 2>/dev/null && break
   kill -0 $run 2>/dev/null || break
   sleep 0.01

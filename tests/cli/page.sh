@@ -30,8 +30,11 @@ cp out/report.html first.html
 cmp first.html out/report.html
 "$mimik" run 'smile <b>.toml' -o again --quiet --threads 2 >/dev/null
 cmp first.html again/report.html
+"$mimik" run 'smile <b>.toml' -o merged --shard 1/1 --quiet >/dev/null
+"$mimik" merge merged --quiet >/dev/null
+cmp first.html merged/report.html
 ! grep -q "$PWD" out/report.html || fail "a path of this machine is in the page"
-claim "a run and a report make the same page, on any number of threads"
+claim "a run, a report and a merge make the same page, on any number of threads"
 
 [ "$(stat -c %s out/report.html)" -lt 30000000 ] || fail "the page is too large"
 ! grep -q '<b>' <(sed '/<script>/,$d' out/report.html | grep '<title>\|<h1>') || fail "a file's name is markup"

@@ -11,7 +11,7 @@ workspace = "work1"
 expressions = ["12", "4"]
 methods = ["thesis", "sparse-mean"]
 END
-results="experiment.json rows.csv rows.sqlite scores.json scores.csv summary.md tables/explained.tex tables/error_mm.tex tables/intervals.tex statistics/methods.csv statistics/differences.csv manifest.json"
+results="experiment.json rows.csv rows.sqlite scores.json scores.csv summary.md tables/explained.tex tables/error_mm.tex tables/intervals.tex statistics/methods.csv statistics/differences.csv statistics/source_dependence.csv manifest.json"
 expect_same() {  # folder, folder
   local file
   for file in $results; do cmp "$1/$file" "$2/$file" || fail "$file of $2 is another"; done
@@ -99,6 +99,14 @@ expect_code 2 "method 'thesis' is not run" "$mimik" run bad.toml -o x
 sed 's/bs001:12:sparse:bs002/bs001:12/' vertices.toml >bad.toml
 expect_code 2 "bad.toml:7: case 'bs001:12' is none; give TARGET:EXPRESSION:METHOD" "$mimik" run bad.toml -o x
 rm -rf x
+# A scan that cannot be read costs its own file and no more.
+cp -r work1 work2
+face=$(find work2/faces -name 'bs000_LFAU_12_0.ply')
+head -c 1000 "$face" >cut.ply
+mv cut.ply "$face"
+sed 's/work1/work2/; s/^expressions.*/expressions = ["12", "4"]/; s/^per_vertex.*/per_vertex = ["bs000:12:sparse", "bs000:4:sparse:bs001"]/' vertices.toml >cut.toml
+expect_code 1 "no case of target 'bs000' and expression '12'" "$mimik" run cut.toml -o cut
+[ "$(ls cut/per_vertex | tr '\n' ' ')" = "bs000_4_sparse_bs001.ply cases.csv " ] && [ -e cut/manifest.json ] || { ls cut cut/per_vertex; fail "the cases of a cut scan"; }
 claim "errors per vertex are those whose mean is the row, from shards, too"
 
 # Somebody else's files stay, those of shards go.
@@ -120,4 +128,14 @@ for k in 1 2; do "$mimik" run fresh.toml -o fresh --shard $k/2 --quiet >/dev/nul
 expect_same fresh1 fresh
 sed 's/"12"/"4"/' fresh.toml >fresh4.toml
 expect_code 2 "preprocessed.json: other expressions were preprocessed" "$mimik" run fresh4.toml -o fresh --shard 1/2
+mkdir db2
+expect_code 2 "preprocessed.json: scans of '$PWD/db1' were preprocessed, not of '$PWD/db2'" "$mimik" run fresh.toml --database db2 -o fresh --shard 1/2
+"$mimik" run fresh.toml --database db1/ -o fresh --shard 1/2 --quiet >/dev/null
+# The folder is whole: a shard whose rows were removed is made again.
+cp fresh/shards/1-of-2.rows first.rows
+rm fresh/shards/1-of-2.rows
+"$mimik" run fresh.toml -o fresh --shard 1/2 --quiet >/dev/null
+cmp first.rows fresh/shards/1-of-2.rows
+"$mimik" run fresh.toml -o fresh --anew --quiet >/dev/null
+[ ! -e fresh/preprocessed.json ] && [ ! -e fresh/faces.json ] || fail "--anew leaves marks of shards"
 claim "preprocessing is done once, and asked for where it is missing"

@@ -23,6 +23,8 @@ END
 
 MIMIK_WAIT=1 "$submit" many.toml out 3 --no-requeue >submit.txt 2>&1 &
 first=$!
+for _ in $(seq 200); do [ ! -s out/log/jobs ] || break; sleep 0.05; done
+expect_code 1 "jobs of an earlier call are still queued" "$submit" many.toml out 3
 # As soon as a shard has stored a target, its node goes.
 lost=
 for _ in $(seq 1200); do
@@ -44,11 +46,12 @@ index=${lost%% *}
 [ ! -e "out/shards/$index-of-3.rows" ] && [ ! -e out/manifest.json ] || fail "the shard of the lost node is there"
 claim "a node that is lost takes its shard with it (shard $lost)"
 
+for _ in $(seq 600); do [ -n "$(squeue --noheader --states=PENDING,RUNNING)" ] || break; sleep 0.1; done
 missing=$("$mimik" merge out --shards 3 --list-missing)
 MIMIK_WAIT=1 "$submit" many.toml out 3 --no-requeue >submit.txt 2>&1 || { cat submit.txt out/log/*; fail "the second call"; }
 grep -q "^submitted shards $missing of 3" submit.txt || { cat submit.txt; fail "other shards than the missing"; }
 grep -q ' of an earlier attempt) in ' "out/log/shard-$index.txt" || { cat out/log/*; fail "units were done again"; }
-for file in experiment.json rows.csv rows.sqlite scores.json scores.csv summary.md tables/explained.tex tables/error_mm.tex tables/intervals.tex statistics/methods.csv statistics/differences.csv manifest.json; do
+for file in experiment.json rows.csv rows.sqlite scores.json scores.csv summary.md tables/explained.tex tables/error_mm.tex tables/intervals.tex statistics/methods.csv statistics/differences.csv statistics/source_dependence.csv manifest.json; do
   cmp "whole/$file" "out/$file" || fail "$file is another than that of a local run"
 done
 "$submit" many.toml out 3 >submit.txt

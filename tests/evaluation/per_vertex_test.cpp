@@ -28,6 +28,11 @@ TEST(CaseChoice, is_read_as_it_is_written_and_fits_its_own_cases_alone) {
     EXPECT_FALSE(any.fits(key));
     EXPECT_EQ(file_stem(key), "bs000_12L_default_bs001");
     key.source = "a/b c";
+    const auto replaced = file_stem(key);
+    EXPECT_THAT(replaced, testing::MatchesRegex("bs000_12L_default_a-b-c-[0-9a-f]+"));
+    key.source = "a-b c";
+    EXPECT_NE(file_stem(key), replaced);
+    key.source = "a-b-c";
     EXPECT_EQ(file_stem(key), "bs000_12L_default_a-b-c");
     for (const auto* bad : {"", "bs000", "bs000:12", "bs000::mean", "bs000:12:mean:", "a:b:c:d:e"})
         EXPECT_THAT(message_of<InputError>([&] { (void)parse_case_choice(bad); }),

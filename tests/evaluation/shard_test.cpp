@@ -85,6 +85,23 @@ TEST(Shard, files_one_after_another_are_the_file_of_one_run) {
                 HasSubstr("unit '12 bs001' is in none of the files"));
 }
 
+TEST(Shard, stores_the_cast_of_an_expression_that_no_target_shows) {
+    const database::TemporaryFolder folder;
+    test::write_analytic_truth(folder.path() / "db");
+    const auto workspace = test::analytic_workspace(folder.path());
+    ExperimentOptions options;
+    options.expressions = {test::expression("12")};
+    const auto catalogue = facs::builtin_catalogue();
+    const PerformanceReader reader(workspace);
+    auto plan = plan_experiment(workspace, catalogue, options, true);
+    plan.targets = {"nobody"};
+    ASSERT_EQ(plan.units(), 0U);
+    CaseStore store;
+    run_units(reader, catalogue, plan, Shard{1, 1}.of(plan.units()), store);
+    EXPECT_TRUE(store.has("12 cast"));
+    EXPECT_EQ(store.units(), 1U);
+}
+
 TEST(Shard, that_was_stopped_within_an_expression_does_the_rest_alone) {
     const database::TemporaryFolder folder;
     test::write_analytic_truth(folder.path() / "db");
