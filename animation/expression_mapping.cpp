@@ -49,6 +49,17 @@ std::optional<std::size_t> place_in(const capture::FeatureMotion& motion, const 
     return k && rest.known[*k] ? k : std::nullopt;
 }
 
+/// Depth never leaves rest: nobody measured it, as in tables of pixels and in motions of 'mimik capture'.
+bool is_flat(const capture::FeatureMotion& motion, const PerformerRest& rest) {
+    constexpr double rounding_mm = 2e-3;  // tables have few digits, and so has the median of them
+    for (const auto& frame : motion.frames)
+        for (std::size_t k = 0; k < frame.features.size(); ++k)
+            if (rest.known[k] && frame.features[k].valid &&
+                std::abs(frame.features[k].head_mm.z() - rest.position_mm[k].z()) > rounding_mm)
+                return false;
+    return true;
+}
+
 }  // namespace
 
 ExpressionMapping::ExpressionMapping(modeling::SourceExamples source, const ExpressionMappingOptions& options)
@@ -167,7 +178,12 @@ modeling::SourceExamples fitted_examples(const modeling::SourceExamples& table, 
     if (const auto of_table = modeling::outer_eye_distance_mm(table); of_table && left && right && *of_table > 0)
         scale = (rest.position_mm[*left] - rest.position_mm[*right]).norm() / *of_table;
     if (factor) *factor = scale;
-    return modeling::scaled(modeling::with_features(table, shared), scale);
+    auto fitted = modeling::scaled(modeling::with_features(table, shared), scale);
+    // Depth that was not measured is no measured 0: examples are told apart by what is seen of them.
+    if (is_flat(motion, rest))
+        for (auto& example : fitted.displacement_mm)
+            for (auto& d : example) d.z() = 0;
+    return fitted;
 }
 
 MappedPerformance map_performance(const capture::FeatureMotion& motion, const PerformerRest& rest,

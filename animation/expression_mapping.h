@@ -90,7 +90,8 @@ struct KeyFrame {
                                                           const PerformerRest& rest, std::span<const KeyFrame> keys);
 
 /// A table of examples made to fit a performer: the features that both have, in the performer's size by the distance of
-/// the outer eye corners. @param factor  what the table was scaled by
+/// the outer eye corners; flat where the motion has no depth (z stays at rest). @param factor  what the table was
+/// scaled by
 /// @throws InputError if they share fewer than 4 features.
 [[nodiscard]] modeling::SourceExamples fitted_examples(const modeling::SourceExamples& table,
                                                        const capture::FeatureMotion& motion, const PerformerRest& rest,

@@ -110,7 +110,7 @@ Rig rig_of(const Actor& actor, const Shelf& shelf, const Arguments& arguments) {
         rig.by[method] = std::make_unique<animation::MarkerAnimator>(
             method, animation::MarkerAnimator::Mesh{actor.rest_mm, actor.triangles, rig.parts, &rig.units},
             capture::builtin_marker_set(), actor.labels, tracked, options);
-    // Lip vertices: within 8 mm of the line through the lip markers of the lips' outer rim.
+    // Lip vertices: within 4 mm of a marker of the lips.
     std::vector<Point> rim;
     for (const auto& mark : actor.labels.all())
         if (mark.name.starts_with("lip_") || mark.name.starts_with("mouth_corner")) rim.push_back(mark.position_mm);
@@ -319,16 +319,15 @@ void measure_world(const std::string& name, const std::vector<Actor>& actors, co
     }
     for (const auto method : {MarkerMethod::open_bones, MarkerMethod::bones, MarkerMethod::units_bones})
         for (std::size_t k = 0; k < actors.size(); ++k) {
-            const auto jaw = std::find(actors[k].units.begin(), actors[k].units.end(), "27");
-            if (jaw == actors[k].units.end()) continue;
-            const auto u = static_cast<std::size_t>(jaw - actors[k].units.begin());
-            fmt::print(
-                "leakage {} {}: lower to upper {:.1f} %, upper to lower (AU 10) {:.1f} %\n", actors[k].name,
-                animation::to_string(method), 100 * leakage(actors[k], rigs[k], method, u, true),
-                100 * leakage(actors[k], rigs[k], method,
-                              static_cast<std::size_t>(std::find(actors[k].units.begin(), actors[k].units.end(), "10") -
-                                                       actors[k].units.begin()),
-                              false));
+            const auto& units = actors[k].units;
+            const auto jaw = std::find(units.begin(), units.end(), "27");
+            const auto raiser = std::find(units.begin(), units.end(), "10");
+            if (jaw == units.end() || raiser == units.end()) continue;
+            const auto down = static_cast<std::size_t>(jaw - units.begin());
+            const auto up = static_cast<std::size_t>(raiser - units.begin());
+            fmt::print("leakage {} {}: lower to upper {:.1f} %, upper to lower (AU 10) {:.1f} %\n", actors[k].name,
+                       animation::to_string(method), 100 * leakage(actors[k], rigs[k], method, down, true),
+                       100 * leakage(actors[k], rigs[k], method, up, false));
         }
     std::fflush(stdout);
 }

@@ -25,6 +25,7 @@ namespace {
 
 constexpr std::size_t point_count = 68;
 constexpr double most_pixels = 1e6;
+const Eigen::Vector2d half_pixel(0.5, 0.5);  // tables have the first pixel's middle at (0, 0), a motion at (0.5, 0.5)
 using Pixels = std::array<Eigen::Vector2d, point_count>;
 
 /// Corners of the eyes, bridge, tip, wings and base of the nose: what expressions move least.
@@ -116,7 +117,7 @@ FeatureMotion begun(const std::vector<Row>& rows, double rate_hz) {
         frame.features.resize(motion.names.size());
         for (std::size_t k = 0; k < motion.names.size() && row.tracked; ++k) {
             frame.features[k].in_image = true;
-            frame.features[k].pixel = row.pixels[static_cast<std::size_t>(face_features()[k].point68)];
+            frame.features[k].pixel = row.pixels[static_cast<std::size_t>(face_features()[k].point68)] + half_pixel;
         }
         motion.frames.push_back(std::move(frame));
     }
@@ -136,6 +137,22 @@ void check_pixels(const Rows& rows, const Pixels& pixels) {
     for (const auto k : stable) spread = std::max(spread, (pixels[k] - pixels[right_eye]).norm());
     if (!(spread < 1e3 * (pixels[left_eye] - pixels[right_eye]).norm()))
         rows.fail("the points of eyes and nose lie far apart beside the distance of the eyes; mend the frame");
+}
+
+/// FeatureMotion::check(), which knows frames and no lines. @param fail  throws, by the number of a frame
+template <class Fail>
+void check_motion(const FeatureMotion& motion, const std::string& name, const Fail& fail) {
+    try {
+        motion.check();
+    } catch (const InputError& whole) {
+        for (std::size_t k = 0; k < motion.frames.size(); ++k) try {
+                FeatureMotion{motion.names, motion.rate_hz, {motion.frames[k]}}.check();
+            } catch (const InputError& e) {
+                const std::string_view what = e.what(), prefix = "frame 0: ";
+                fail(k, std::string(what.starts_with(prefix) ? what.substr(prefix.size()) : what));
+            }
+        throw InputError(fmt::format("{}: {}", name, whole.what()));
+    }
 }
 
 template <class Rows>
@@ -183,7 +200,11 @@ LandmarkTable decode_points68_csv(std::string_view text, const std::string& name
     place_flat(read, options.outer_eye_mm, table.motion);
     table.remarks.push_back(
         fmt::format("{}: pixels say nothing of depth; turning and nodding of the head stay in the features", name));
-    table.motion.check();
+    check_motion(table.motion, name, [&](std::size_t frame, const std::string& what) {
+        base::CsvReader again(text, name);
+        for (std::size_t k = 0; k <= frame; ++k) (void)again.next();
+        again.fail(what);
+    });
     return table;
 }
 
@@ -234,7 +255,9 @@ public:
             table.remarks.push_back(fmt::format(
                 "{}: no columns X_0 to Z_67 and pose_Tx to pose_Rz, so depth and the head's turning are not known",
                 name_));
-        table.motion.check();
+        check_motion(table.motion, name_, [&](std::size_t frame, const std::string& what) {
+            throw InputError(fmt::format("{}: line {}: {}", name_, lines_[frame], what));
+        });
         return table;
     }
 
@@ -262,7 +285,8 @@ private:
     std::array<std::size_t, 3> translation_{}, rotation_{};
     bool solid_ = false;
     std::vector<Row> read_;
-    std::vector<Solid> solids_;  ///< of rows that are tracked
+    std::vector<std::size_t> lines_;  ///< of these
+    std::vector<Solid> solids_;       ///< of rows that are tracked
 };
 
 void OpenFaceReader::read_row() {
@@ -301,6 +325,7 @@ void OpenFaceReader::read_row() {
         }
     }
     read_.push_back(row);
+    lines_.push_back(rows_.line());
 }
 
 double OpenFaceReader::rate(LandmarkTable& table) const {

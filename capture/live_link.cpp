@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -89,10 +90,15 @@ ShapeMotion decode_live_link_csv(std::string_view text, const std::string& name,
             fmt::format("{}: the header does not begin with Timecode,BlendShapeCount; this is no table of "
                         "Live Link Face",
                         name));
+    constexpr std::size_t most_columns = 4096;
+    if (rows.header().size() > most_columns)
+        throw InputError(fmt::format("{}: {} columns, and {} are the most; leave out those that are no blendshapes",
+                                     name, rows.header().size(), most_columns));
     ShapeMotion motion;
+    std::set<std::string> seen;
     for (std::size_t k = 2; k < rows.header().size(); ++k) {
         motion.shapes.push_back(arkit_spelling(rows.header()[k]));
-        if (motion.shapes.back().empty() || motion.find(motion.shapes.back()) != k - 2)
+        if (motion.shapes.back().empty() || !seen.insert(motion.shapes.back()).second)
             throw InputError(fmt::format("{}: column {} has no name or another's name; rename it", name, k + 1));
     }
     std::vector<Timecode> codes;

@@ -55,6 +55,7 @@ public:
                              base::in_quotes(fields_[column])));
         return *value;
     }
+    [[nodiscard]] std::size_t line() const { return lines_.number(); }  ///< of the row, 1 for the first of the file
     [[noreturn]] void fail(const std::string& what) const { lines_.fail(what); }
 
 private:

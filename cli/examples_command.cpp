@@ -26,6 +26,7 @@
 #include "cli/notes.h"
 #include "cli/performance_commands.h"
 #include "cli/subject_names.h"
+#include "database/file_origin.h"
 #include "database/hidden_subjects.h"
 #include "database/known_databases.h"
 #include "io/image.h"
@@ -204,16 +205,27 @@ animation::FacialExamples as_examples(const Character& character, const std::vec
     return set;
 }
 
-io::MadeBy made_by(const Character& character, const std::string& source, const Models& models) {
+io::MadeBy made_by(const Arguments& arguments, const Character& character, const ExpressionShelf& shelf,
+                   const Models& models) {
     std::set<std::string> subjects;
     if (!character.subject.empty()) subjects.insert(character.subject);
     for (const auto& name : models.scans)
         if (const auto scan = database::parse_scan_name(name)) subjects.insert(scan->subject);
-    return {{"made_by", fmt::format("Mimik {} examples", base::version())},
-            {"source", source},
-            {"target", character.name},
-            // Lists of hidden subjects are heeded wherever the mesh goes (database/file_origin.h).
-            {"subjects", fmt::format("{}", fmt::join(subjects, " "))}};
+    database::FileOrigin origin;
+    origin.subjects.assign(subjects.begin(), subjects.end());
+    if (!character.workspace.empty()) {
+        const preprocessing::Workspace workspace(character.workspace);
+        origin.database = database::remember_database(workspace.database_root());
+    }
+    if (character.file)
+        origin = database::united(
+            origin, database::united(database::origin_of(arguments.target), database::origin_of(arguments.landmarks)));
+    io::MadeBy made = {{"made_by", fmt::format("Mimik {} examples", base::version())},
+                       {"source", shelf.workspace() ? "workspace" : builtin_name},
+                       {"target", character.name}};
+    // Lists of hidden subjects are heeded wherever the mesh goes.
+    for (auto& said : database::said_in_files(origin)) made.push_back(std::move(said));
+    return made;
 }
 
 int run(const Arguments& arguments) {
@@ -270,8 +282,7 @@ int run(const Arguments& arguments) {
         set.features_file = folder / "features.csv";
         modeling::write_source_examples(set.features_file, made.features);
     }
-    animation::write_facial_examples(folder, set,
-                                     made_by(character, shelf->workspace() ? "workspace" : builtin_name, models));
+    animation::write_facial_examples(folder, set, made_by(arguments, character, *shelf, models));
     if (arguments.common.json) {
         auto list = nlohmann::json::array();
         for (const auto& example : set.examples) {

@@ -136,7 +136,7 @@ void add_figures_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--error-scale-mm", options.error_scale_mm, "Upper end of the colours of the heat maps")
         ->capture_default_str();
-    command->add_option("--rows", options.rows_file, "cases.csv of 'mimik run', for the plots");
+    command->add_option("--rows", options.rows_file, "rows.csv of 'mimik run', for the plots");
     command->add_flag("--keep-parts", arguments->keep_parts,
                       "Leave meshes and descriptions in parts/, for 'mimik figure --description'");
     add_common_options(*command, arguments->common);

@@ -88,8 +88,8 @@ capture::MarkerSequence cleaned(const AnimateTakeArguments& arguments, const cap
 /// How far made faces are from true ones.
 struct TruthScore {
     std::size_t frames = 0;
-    double mean_mm = 0, p95_mm = 0, largest_mm = 0;
-    double lips_mm = 0;  ///< the largest error of a lip vertex, a frame's mean
+    double mean_mm = 0, p95_mm = 0, largest_mm = 0;  ///< p95_mm to 0.01 mm, rounded up
+    double lips_mm = 0;                              ///< the largest error of a lip vertex, a frame's mean
     std::vector<std::uint32_t> lip_vertices;
 };
 
@@ -107,12 +107,41 @@ std::vector<std::uint32_t> lip_vertices(const MocapTarget& target) {
     return list;
 }
 
+/// Errors in bins of 0.01 mm up to 200 mm: memory does not grow with the take.
+class ErrorBins {
+public:
+    void add(double error_mm) {
+        const double bin = std::min(error_mm / width_mm, static_cast<double>(bins_.size() - 1));
+        ++bins_[bin >= 0 ? static_cast<std::size_t>(bin) : bins_.size() - 1];  // NaN is far off
+        ++count_;
+        sum_mm_ += error_mm;
+        largest_mm_ = std::max(largest_mm_, error_mm);
+    }
+    [[nodiscard]] double mean_mm() const { return sum_mm_ / static_cast<double>(count_); }
+    [[nodiscard]] double largest_mm() const { return largest_mm_; }
+    /// The upper end of the bin that the error lies in, and at most the largest.
+    [[nodiscard]] double percentile_mm(std::uint64_t percent) const {
+        const auto rank = (count_ - 1) * percent / 100;
+        std::uint64_t below = 0;
+        for (std::size_t k = 0; k + 1 < bins_.size(); ++k)
+            if ((below += bins_[k]) > rank) return std::min(width_mm * static_cast<double>(k + 1), largest_mm_);
+        return largest_mm_;
+    }
+
+private:
+    static constexpr double width_mm = 0.01;
+    std::vector<std::uint64_t> bins_ = std::vector<std::uint64_t>(20'001);  // the last: 200 mm and more
+    std::uint64_t count_ = 0;
+    double sum_mm_ = 0, largest_mm_ = 0;
+};
+
 TruthScore score(const std::filesystem::path& folder, const MocapMotion& motion) {
     const auto& target = motion.rig().target();
     TruthScore result;
     result.lip_vertices = lip_vertices(target);
     std::vector<geometry::Vector> displacement(target.mesh.vertices_mm.size());
-    std::vector<double> errors;
+    ErrorBins bins;
+    std::vector<double> errors(displacement.size());
     for (std::size_t f = 0; f < motion.frames(); ++f) {
         const auto file = folder / fmt::format("frame_{:06}.ply", motion.number(f));
         if (!std::filesystem::exists(file)) continue;
@@ -122,9 +151,11 @@ TruthScore score(const std::filesystem::path& folder, const MocapMotion& motion)
                                          file.string(), truth.size(), displacement.size()));
         motion.displace(f, displacement);
         double largest = 0;
-        for (std::size_t v = 0; v < truth.size(); ++v)
-            errors.push_back((target.mesh.vertices_mm[v] + displacement[v] - truth[v]).norm());
-        for (const auto v : result.lip_vertices) largest = std::max(largest, errors[errors.size() - truth.size() + v]);
+        for (std::size_t v = 0; v < truth.size(); ++v) {
+            errors[v] = (target.mesh.vertices_mm[v] + displacement[v] - truth[v]).norm();
+            bins.add(errors[v]);
+        }
+        for (const auto v : result.lip_vertices) largest = std::max(largest, errors[v]);
         result.lips_mm += largest;
         ++result.frames;
     }
@@ -132,11 +163,9 @@ TruthScore score(const std::filesystem::path& folder, const MocapMotion& motion)
         throw InputError(
             fmt::format("--truth: {} has no frame_NNNNNN.ply of a frame of the recording", folder.string()));
     result.lips_mm /= static_cast<double>(result.frames);
-    result.mean_mm = std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
-    const auto at = errors.begin() + static_cast<std::ptrdiff_t>((errors.size() - 1) * 95 / 100);
-    std::nth_element(errors.begin(), at, errors.end());
-    result.p95_mm = *at;
-    result.largest_mm = *std::max_element(at, errors.end());
+    result.mean_mm = bins.mean_mm();
+    result.p95_mm = bins.percentile_mm(95);
+    result.largest_mm = bins.largest_mm();
     return result;
 }
 
@@ -285,8 +314,9 @@ void add_output_options(CLI::App& command, AnimateTakeArguments& arguments) {
         ->capture_default_str();
     command.add_option("--sheet", arguments.sheet, "A contact sheet, too: markers above, faces below (.png)");
     command.add_option("--panels", arguments.panels, "Frames on the contact sheet")->capture_default_str();
-    command.add_option("--truth", arguments.truth,
-                       "Folder of true faces frame_000001.ply ...: say how far the made ones are from them");
+    command.add_option(
+        "--truth", arguments.truth,
+        "Folder of true faces frame_000001.ply ...: say how far the made ones are from them, percentiles to 0.01 mm");
 }
 
 }  // namespace

@@ -86,13 +86,14 @@ nlohmann::json to_json(const Planned& planned, const std::vector<facs::Expressio
     std::vector<std::string> codes;
     for (const auto& expression : expressions) codes.push_back(expression.code());
     for (const auto& person : figure.people)
-        people.push_back({{"subject", person.subject},
-                          {"zone_mm", person.zone_mm},
-                          {"zone_nothing_mm", person.zone_nothing_mm},
-                          {"explained", person.explained() ? nlohmann::json(*person.explained()) : nlohmann::json()},
-                          {"face_mm", person.face_mm},
-                          {"face_nothing_mm", person.face_nothing_mm},
-                          {"border_hits", person.border_hits}});
+        people.push_back(
+            {{"subject", person.subject},
+             {"zone_mm", person.zone_mm},
+             {"zone_nothing_mm", person.zone_nothing_mm},
+             {"explained", person.explained() ? nlohmann::json(*person.explained()) : nlohmann::json()},
+             {"face_mm", person.face_mm ? nlohmann::json(*person.face_mm) : nlohmann::json()},
+             {"face_nothing_mm", person.face_nothing_mm ? nlohmann::json(*person.face_nothing_mm) : nlohmann::json()},
+             {"border_hits", person.border_hits}});
     return {{"picture", picture.string()},
             {"description", figure.description.string()},
             {"panels", figure.panels},

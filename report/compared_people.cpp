@@ -144,12 +144,9 @@ void compare(ShownPerson& person, const Workspace& workspace, const evaluation::
     const auto nothing = evaluation::distances_to_real_scan({*person.scored, neutral, still});
     const auto measured =
         std::count_if(neutral.measured.begin(), neutral.measured.end(), [](auto seen) { return seen != 0; });
-    person.compared = {person.neutral.id.subject,
-                       animated.zone_mm,
-                       nothing.zone_mm,
-                       animated.face_mm.value_or(0),
-                       nothing.face_mm.value_or(0),
-                       static_cast<std::size_t>(measured) - person.scored->vertices.size()};
+    person.compared = {person.neutral.id.subject, animated.zone_mm,
+                       nothing.zone_mm,           animated.face_mm,
+                       nothing.face_mm,           static_cast<std::size_t>(measured) - person.scored->vertices.size()};
 }
 
 ShownPerson person_with_scan(const char* role, const Workspace& workspace, const std::string& subject,

@@ -36,8 +36,8 @@ struct ComparisonRequest {
 /// draws it. The scan was brought onto the neutral one by its stable region: a truth, where there is one, is not used.
 struct ComparedPerson {
     std::string subject;
-    double zone_mm = 0, zone_nothing_mm = 0;  ///< mean distance to the real scan in the zone; of doing nothing
-    double face_mm = 0, face_nothing_mm = 0;  ///< the same over the whole face
+    double zone_mm = 0, zone_nothing_mm = 0;         ///< mean distance to the real scan in the zone; of doing nothing
+    std::optional<double> face_mm, face_nothing_mm;  ///< the same over the whole face; none: not measured
     std::size_t border_hits = 0;  ///< measured vertices whose nearest point is on the scan's border: left out of all
     [[nodiscard]] std::optional<double> explained() const;  ///< 1 - distance / distance of doing nothing
 };

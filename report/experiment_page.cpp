@@ -355,7 +355,7 @@ std::vector<std::string> findings(const json& data) {
         const auto interval =
             result.at("low").is_null()
                 ? std::string(" (too few subjects for an interval)")
-                : fmt::format(" ({:.0f} % interval {:.2f} to {:.2f})", 100 * data.at("confidence").get<double>(),
+                : fmt::format(" ({:g} % interval {:.2f} to {:.2f})", 100 * data.at("confidence").get<double>(),
                               result.at("low").get<double>(), result.at("high").get<double>());
         sentences.push_back(fmt::format("{}: {} explains {:.2f} of the motion{}, and is {:.2f} mm off the real scan.",
                                         kind == "mean"   ? "Of the methods that learn from everybody else"
@@ -404,7 +404,7 @@ std::string experiment_page(const PageParts& parts, const PageExperiment& experi
     page.set("expressions", base::counted(data.at("expressions").size(), "expression"));
     page.set("zones", scores.value("zones", ""));
     page.set("alignment", scores.value("alignment", ""));
-    page.set("confidence", fmt::format("{:.0f}", 100 * experiment.comparison.confidence));
+    page.set("confidence", fmt::format("{:g}", 100 * experiment.comparison.confidence));
     page.set("findings", lines(findings(data)));
     page.set("anchors", lines(anchors_in_words(data)));
     page.set("has_failures", !failures.empty());

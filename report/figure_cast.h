@@ -33,7 +33,7 @@ struct NamedFigureOptions {
     std::string method = "default";  ///< that makes a model of control points, of one source
     HoleDrawing holes = HoleDrawing::fill;
     double error_scale_mm = 5.0;  ///< upper end of the colours of error maps: the same in all, so they can be compared
-    std::string rows_file;        ///< cases.csv of an experiment, for the plots of its numbers; empty: none
+    std::string rows_file;        ///< rows.csv of an experiment, for the plots of its numbers; empty: none
 
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {

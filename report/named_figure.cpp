@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -36,6 +40,31 @@ std::array<int, 3> place_of(const std::string& name) {
 
 bool of_the_thesis(const std::string& name) { return place_of(name)[0] < 2; }
 
+/// Chapter and number of "4-1".
+std::optional<std::pair<std::int64_t, std::int64_t>> number_of(std::string_view name) {
+    const auto sign = name.find('-');
+    if (sign == std::string_view::npos) return std::nullopt;
+    const auto chapter = base::parse_integer(name.substr(0, sign)), figure = base::parse_integer(name.substr(sign + 1));
+    if (!chapter || !figure || *figure < 1) return std::nullopt;
+    return std::pair(*chapter, *figure);
+}
+
+/// @param list  "4-1 to 4-4, 4-7, 4-8"; of what has parts left out alone ("6-6: (a)"), nothing
+bool is_among(std::string_view list, std::string_view wanted) {
+    const auto number = number_of(wanted);
+    if (!number || list.find(':') != std::string_view::npos) return false;
+    while (!list.empty()) {
+        const auto end = std::min(list.find(','), list.size());
+        const auto part = base::trimmed(list.substr(0, end));
+        list.remove_prefix(std::min(end + 1, list.size()));
+        const auto to = part.find(" to ");
+        const auto first = number_of(part.substr(0, to));
+        const auto last = to == std::string_view::npos ? first : number_of(part.substr(to + 4));
+        if (first && last && *first <= *number && *number <= *last) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 const std::vector<NamedFigure>& named_figures() {
@@ -57,7 +86,7 @@ const NamedFigure& named_figure(const std::string& name) {
         names.push_back(figure.name);
     }
     for (const auto& left_out : left_out_figures())
-        if (base::lower_case(left_out.name) == wanted)
+        if (is_among(left_out.name, wanted))
             throw InputError(fmt::format("figure {} is not made: {}", base::in_quotes(name), left_out.reason));
     throw InputError(
         fmt::format("figure {} is not known; give one of {}", base::in_quotes(name), fmt::join(names, ", ")));

@@ -401,6 +401,9 @@ std::string page_faces(const evaluation::PerformanceReader& reader, const facs::
     });
     std::vector<ordered_json> faces(choice.faces.size());
     std::vector<std::size_t> bytes(choice.faces.size(), 0);
+    if (choice.faces.empty() && options.most_faces > 0)
+        remarks.emplace_back(
+            "no face is on the page: no method has errors at magnitude 1 to rank targets by; add 1 to the magnitudes");
     std::set<std::string> usable;
     if (!choice.faces.empty()) usable = usable_subjects(reader, plan);
     for (const auto& planned : plan.expressions) {
@@ -426,7 +429,7 @@ std::string page_faces(const evaluation::PerformanceReader& reader, const facs::
     std::size_t total = 0;
     for (std::size_t f = 0; f < faces.size(); ++f) {
         if (faces[f].is_null()) continue;
-        if (total + bytes[f] > options.most_bytes) {
+        if (!kept.empty() && total + bytes[f] > options.most_bytes) {
             remarks.push_back(
                 fmt::format("{}: its face would make the page too large; 'mimik report OUT --target {}' "
                             "makes a page of it",

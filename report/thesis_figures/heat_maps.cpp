@@ -49,7 +49,7 @@ figures::Panel error_panel(const FigureCast& cast, const ShownPerson& person, co
                                    .label = sign ? "before (+), behind (-), mm" : "distance, mm",
                                    .range = std::array{sign ? -scale_mm : 0.0, scale_mm},
                                    .map = sign ? figures::ColourMap::diverging : figures::ColourMap::sequential};
-    panel.caption += fmt::format("\nmean {:.2f} mm", person.compared.face_mm);
+    if (const auto& mean_mm = person.compared.face_mm) panel.caption += fmt::format("\nmean {:.2f} mm", *mean_mm);
     return panel;
 }
 

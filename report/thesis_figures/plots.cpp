@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@
 #include "report/svg_plot.h"
 #include "statistics/bootstrap.h"
 
-// What the thesis does not have: plots of an experiment's numbers, from its cases.csv.
+// What the thesis does not have: plots of an experiment's numbers, from its rows.csv.
 
 namespace mimik::report::thesis_figures {
 namespace {
@@ -25,7 +26,7 @@ struct MethodErrors {
 };
 
 std::vector<MethodErrors> read_errors(const std::string& file) {
-    if (file.empty()) throw InputError("no file of rows is given; give --rows CASES.csv of 'mimik run'");
+    if (file.empty()) throw InputError("no file of rows is given; give --rows OUT/rows.csv of 'mimik run'");
     constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 31;
     const auto text = base::read_text(file, most_bytes);
     base::CsvReader table(text, file);
@@ -56,6 +57,11 @@ std::vector<MethodErrors> read_errors(const std::string& file) {
 
 constexpr const char* error_label = "mean distance to the scan in the zone, mm";
 
+/// Without the folder: captions are the same wherever the command was typed.
+std::string file_name(const FigureCast& cast) {
+    return std::filesystem::path(cast.options().rows_file).filename().string();
+}
+
 FigurePlan boxes(const FigureCast& cast) {
     std::vector<PlotGroup> groups;
     for (auto& method : read_errors(cast.options().rows_file)) groups.push_back({method.name, method.error_mm});
@@ -64,7 +70,7 @@ FigurePlan boxes(const FigureCast& cast) {
     plan.caption = fmt::format(
         "Error of each method over all cases of {}: median, quartiles, whiskers to 1.5 times the "
         "quartiles' distance, mean (diamond).",
-        cast.options().rows_file);
+        file_name(cast));
     return plan;
 }
 
@@ -78,7 +84,7 @@ FigurePlan cumulative(const FigureCast& cast) {
     plan.caption = fmt::format(
         "The share of the cases of {} whose error is not greater than the value on the axis, of "
         "each method.",
-        cast.options().rows_file);
+        file_name(cast));
     return plan;
 }
 
@@ -96,14 +102,14 @@ FigurePlan intervals(const FigureCast& cast) {
     plan.caption = fmt::format(
         "Mean error of each method over the cases of {}, with the interval that holds it with "
         "95 % (bias-corrected bootstrap of the targets, seed 1).",
-        cast.options().rows_file);
+        file_name(cast));
     return plan;
 }
 
 }  // namespace
 
 std::vector<NamedFigure> plots_figures() {
-    constexpr const char* needs = "--rows, the cases.csv of an experiment";
+    constexpr const char* needs = "--rows, the rows.csv of an experiment";
     return {{"plot-box", "Error of the methods: boxes", needs, FigureNeeds::rows, boxes},
             {"plot-cumulative", "Error of the methods: cumulative share of the cases", needs, FigureNeeds::rows,
              cumulative},

@@ -51,6 +51,25 @@ TEST(ExpressionMapping, known_weights_come_back_through_noise_and_from_a_perform
     EXPECT_EQ(mapped.lost, 0U);
 }
 
+TEST(ExpressionMapping, of_a_flat_motion_an_example_that_is_shown_exactly_has_weight_1) {
+    auto source = test::three_examples();
+    for (std::size_t i = 0; i < 3; ++i)  // depth of its own, that a motion of pixels cannot show
+        for (std::size_t k = 0; k < source.features.size(); ++k)
+            source.displacement_mm[i][k].z() += 2.0 * static_cast<double>((i + k) % 3);
+    auto motion = test::performed(source, 60, 0.0);
+    for (auto& frame : motion.frames)
+        for (std::size_t k = 0; k < source.features.size(); ++k) frame.features[k].head_mm = source.neutral_mm[k];
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < source.features.size(); ++k) {
+            const auto& d = source.displacement_mm[i][k];
+            motion.frames[50 + i].features[k].head_mm += Vector(d.x(), d.y(), 0);
+        }
+    const auto rest = performer_rest(motion, 0, 9);
+    const auto mapped = map_performance(motion, rest, ExpressionMapping(fitted_examples(source, motion, rest)));
+    for (Eigen::Index i = 0; i < 3; ++i)
+        for (Eigen::Index j = 0; j < 3; ++j) EXPECT_NEAR(mapped.weights(50 + i, j), i == j ? 1 : 0, 1e-9);
+}
+
 TEST(ExpressionMapping, features_that_are_not_seen_are_done_without) {
     const auto source = test::three_examples();
     const ExpressionMapping mapping(source);

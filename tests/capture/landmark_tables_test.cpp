@@ -36,7 +36,9 @@ TEST(LandmarkTables, head_motion_in_the_image_is_taken_away_and_a_mouth_that_ope
     EXPECT_NEAR((at(3, lip) - at(0, lip)).y(), -10, 1e-4);
     EXPECT_NEAR(at(0, corner).x(), test::face68_mm()[54].x(), 1e-4);
     EXPECT_GT(at(0, corner).x(), 0) << "the subject's left is +x";
-    EXPECT_EQ(motion.frames[1].features[corner].pixel, test::pixels68(test::face68_mm(), {100, 400}, 0.4, 4.0)[54]);
+    // Half a pixel from the table's: middles of pixels are at .5 here.
+    const Eigen::Vector2d written = test::pixels68(test::face68_mm(), {100, 400}, 0.4, 4.0)[54];
+    EXPECT_LT((motion.frames[1].features[corner].pixel - written - Eigen::Vector2d(0.5, 0.5)).norm(), 1e-6);
 }
 
 TEST(LandmarkTables, openface_points_come_into_the_heads_frame_whatever_the_head_does) {
@@ -94,6 +96,17 @@ TEST(LandmarkTables, what_is_wrong_is_named_with_file_line_and_mend) {
                             return zeros;
                         }()),
                 HasSubstr("points 36 and 45, are at one place"));
+    auto far = test::pixels68(test::face68_mm(), {320, 240}, 0, 2);
+    far[57] = {9e5, 0};
+    EXPECT_THAT(refusal(good + test::row68(1, far)),
+                HasSubstr("p.csv: line 3: lower_lip_outer is farther than 1000 mm"));
+    auto face = test::face68_mm();
+    face[57].x() = 2e3;
+    EXPECT_THAT(test::message_of([&] {
+                    (void)decode_openface_csv(
+                        test::openface_header() + test::openface_row(1, 0.0, face, {0, 0, 0}, {0, 0, 600}), "o.csv");
+                }),
+                HasSubstr("o.csv: line 2: lower_lip_outer is farther than 1000 mm"));
     EXPECT_THAT(test::message_of([&] { (void)decode_openface_csv(good, "o.csv"); }),
                 HasSubstr("column 'success' is missing"));
 }

@@ -46,6 +46,9 @@ TEST(LiveLink, what_is_wrong_is_named_with_file_line_and_mend) {
     EXPECT_THAT(refusal(std::string(header) + "10:00:00:00,3,0,x,0\n"),
                 HasSubstr("MouthSmileRight is 'x', not a finite number"));
     EXPECT_THAT(refusal(std::string(header) + good + good), HasSubstr("timecodes do not grow from row 1 to 2"));
+    std::string wide = "Timecode,BlendShapeCount";
+    for (int k = 0; k < 5000; ++k) wide += ",c" + std::to_string(k);
+    EXPECT_THAT(refusal(wide + "\n"), HasSubstr("l.csv: 5002 columns, and 4096 are the most"));
     EXPECT_THAT(refusal("Timecode,BlendShapeCount,A,A\n"), HasSubstr("column 4 has no name or another's name"));
 }
 

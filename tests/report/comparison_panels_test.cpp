@@ -159,8 +159,8 @@ TEST_F(ComparisonPanels, colours_are_the_distances_that_the_captions_sum_up) {
     const auto neutral = attribute(io::read_mesh(out("colours") / "target_neutral.ply"), "distance_mm");
     const auto animated = attribute(io::read_mesh(out("colours") / "target_animated.ply"), "distance_mm");
     // The same numbers added up in another order.
-    EXPECT_NEAR(mean_of_finite(neutral), distances.face_nothing_mm, 1e-9);
-    EXPECT_NEAR(mean_of_finite(animated), distances.face_mm, 1e-9);
+    EXPECT_NEAR(mean_of_finite(neutral), distances.face_nothing_mm.value(), 1e-9);
+    EXPECT_NEAR(mean_of_finite(animated), distances.face_mm.value(), 1e-9);
     EXPECT_LT(distances.zone_mm, distances.zone_nothing_mm);
     EXPECT_DOUBLE_EQ(*figure.people[1].explained(), 1 - distances.zone_mm / distances.zone_nothing_mm);
     // The scale is the 99th percentile of doing nothing: at most one vertex in a hundred lies above it.

@@ -45,6 +45,9 @@ TEST(NamedFigures, a_name_is_found_however_it_is_typed_and_what_is_left_out_says
     EXPECT_EQ(file_stem(named_figure("A-1")), "fig-A-1");
     EXPECT_EQ(file_stem(named_figure("table-3-2")), "table-3-2");
     EXPECT_THAT(message_of([] { (void)named_figure("5-1"); }), HasSubstr("a flow chart"));
+    for (const auto* name : {"1-1", "2-7", "3-6", "4-1", "fig-4-3", "4-8", "5-7"})
+        EXPECT_THAT(message_of([&] { (void)named_figure(name); }), HasSubstr("is not made: ")) << name;
+    EXPECT_THAT(message_of([] { (void)named_figure("4-9"); }), HasSubstr("is not known"));
     EXPECT_THAT(message_of([] { (void)named_figure("9-9"); }), HasSubstr("give one of 4-5, 4-6, 5-2"));
 }
 

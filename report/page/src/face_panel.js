@@ -92,6 +92,7 @@ export class FacePanel {
     }
     const before = this.code;
     this.target = target ?? this.target;
+    method = method?.split('@')[0]; // rows of mean@0.8 are of the method mean; its slider has the magnitude
     if (method !== undefined && this.page.faces.methods.includes(method)) this.method = method;
     else if (method !== undefined) {
       this.notice.hidden = false;
