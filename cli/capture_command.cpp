@@ -1,5 +1,4 @@
 #include <cerrno>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -11,31 +10,16 @@
 #include "base/errors.h"
 #include "cli/capture_options.h"
 #include "cli/command.h"
+#include "cli/figure_start.h"
 
 namespace mimik::cli {
-namespace {
-
-/// Beside this program: OpenCV's video modules are loaded only by those who use them.
-std::filesystem::path capture_program() {
-    const char* name = "mimik-video";
-    std::error_code ignored;
-    const auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name;
-    if (std::filesystem::is_regular_file(beside, ignored)) return beside;
-    throw InputError(
-        fmt::format("{}: is not there, so this build reads no video; install libopencv-dev and opencv-data "
-                    "(scripts/setup.sh does), configure and build again",
-                    beside.string()));
-}
-
-}  // namespace
-
 void add_capture_command(CLI::App& app, int& /*exit_code*/) {
     auto* command = app.add_subcommand("capture", "Follow a performer's face in video, without markers");
     const auto arguments = std::make_shared<CaptureArguments>();
     add_capture_options(*command, *arguments);
     command->callback([arguments] {
         check_capture_options(*arguments);
-        const auto program = capture_program();
+        const auto program = find_video_program();  // OpenCV is loaded only by those who use it
         // The other program reads the same words again.
         std::vector<std::string> words = {"mimik-video", "track"};
         const auto& typed = command_line();

@@ -11,7 +11,7 @@ namespace mimik::cli {
 /// What `mimik capture` and `mimik-video track` are told: one list, so that help and programs cannot differ.
 struct CaptureArguments {
     Common common;
-    std::string source, output, landmarks68, sheet, video, neutral = "0:10", tracker = "paper", colours;
+    std::string source, output, landmarks68, sheet, video, neutral = "0:9", tracker = "paper", colours;
     std::optional<double> interocular_mm;
     bool smooth = false;
     long frames = 0;
@@ -19,7 +19,7 @@ struct CaptureArguments {
 void add_capture_options(CLI::App& command, CaptureArguments& arguments);
 /// @throws InputError naming the option
 void check_capture_options(const CaptureArguments& arguments);
-/// "A:B". @throws InputError naming --neutral
+/// "A:B", B among them. @throws InputError naming --neutral
 [[nodiscard]] std::array<int, 2> neutral_frames(const std::string& text);
 
 }  // namespace mimik::cli

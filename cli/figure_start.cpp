@@ -84,14 +84,15 @@ std::filesystem::path find_figure_program() {
 
 std::filesystem::path find_video_program() {
     if (auto file = find_own_program(video_program_name); !file.empty()) return file;
-    throw InputError(
-        fmt::format("{} is neither {} nor on the PATH; build it (it needs libopencv-dev), or write a .glb or a folder",
-                    video_program_name, beside_this(video_program_name).string()));
+    throw InputError(fmt::format(
+        "{} is neither {} nor on the PATH, so this build reads and writes no video; install libopencv-dev and "
+        "opencv-data (scripts/setup.sh --video does), configure and build again",
+        video_program_name, beside_this(video_program_name).string()));
 }
 
 std::string write_video(const std::filesystem::path& frames, const std::filesystem::path& video, double rate_hz) {
     return run_program(find_video_program(), {video_program_name, "write", frames.string(), video.string(), "--fps",
-                                              fmt::format("{:g}", rate_hz)});
+                                              fmt::format("{:g}", rate_hz), "--quiet"});
 }
 
 void become_figure_program(const std::vector<std::string>& arguments) {

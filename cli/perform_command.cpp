@@ -93,7 +93,7 @@ std::size_t frame_number(const std::string& typed, std::string_view text, const 
     return static_cast<std::size_t>(*number);
 }
 
-/// --neutral A:B; without it the first half second.
+/// --neutral A:B, B among them; without it the first half second.
 animation::PerformerRest rest_of(const Arguments& arguments, const capture::FeatureMotion& motion) {
     if (motion.frames.empty()) throw InputError(fmt::format("{}: there is no frame", arguments.motion.string()));
     if (!arguments.rest.empty()) {
@@ -302,8 +302,9 @@ void add_perform_command(CLI::App& app, int& exit_code) {
                         "EXAMPLE=FRAME of the motion that shows it, such as smile=120; repeat");
     command->add_option("--source-examples", arguments->source_examples,
                         "Or a table of what features do in the examples (features.csv of 'mimik examples')");
-    command->add_option("--neutral", arguments->rest,
-                        "Frames A:B in which the performer is at rest (default: the first half second seen)");
+    command->add_option(
+        "--neutral", arguments->rest,
+        "Frames A:B, B among them, in which the performer is at rest (default: the first half second seen)");
     command->add_option("--gain", arguments->options.gain, "Below 1 attenuates, above exaggerates")
         ->capture_default_str();
     command->add_flag("--clamp", arguments->options.clamp, "Keep weights between 0 and 1, before the gain");

@@ -74,7 +74,7 @@ void track(const CaptureArguments& arguments) {
                                  report.frames_a_second());
 }
 
-void write_video(const std::string& folder, const std::string& output, double rate_hz) {
+void write_video(const std::string& folder, const std::string& output, double rate_hz, bool quiet) {
     if (!fs::is_directory(folder)) throw InputError(fmt::format("{}: is no folder of PNG files", folder));
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder))
@@ -84,7 +84,7 @@ void write_video(const std::string& folder, const std::string& output, double ra
     video::VideoWriter writer(output, rate_hz);
     for (const auto& file : files) writer.add(io::read_png(file));
     writer.finish();
-    std::cout << fmt::format("{}: {}\n", output, base::counted(files.size(), "frame"));
+    if (!quiet) std::cout << fmt::format("{}: {}\n", output, base::counted(files.size(), "frame"));
 }
 
 /// PREFIX.mp4, PREFIX_points.csv (68 points), PREFIX_curves.csv, PREFIX_truth.csv (pose and weights).
@@ -174,11 +174,13 @@ int run_video(int argc, char** argv) {
 
     std::string folder, output;
     double rate_hz = 30;
+    bool quiet = false;
     auto* writing = app.add_subcommand("write", "A folder of PNG files as an MP4");
     writing->add_option("FRAMES", folder, "Folder of PNG files of one size, in the order of their names")->required();
     writing->add_option("OUTPUT", output, "MP4 file")->required();
     writing->add_option("--fps", rate_hz, "Frames a second")->capture_default_str();
-    writing->callback([&] { write_video(folder, output, rate_hz); });
+    writing->add_flag("--quiet", quiet, "Say nothing but errors");
+    writing->callback([&] { write_video(folder, output, rate_hz, quiet); });
 
     std::string prefix;
     video::PerformanceOptions performance;

@@ -105,8 +105,9 @@ draw surface_distance --columns 2 --size 340x400 target_animated.vtp back.vtp --
 
 # A rendered performance and the curves that the tracker found.
 video=$(dirname "$mimik")/mimik-video
+[ -x "$video" ] || { echo "pictures.sh: $video is missing; run scripts/setup.sh --video, configure and build again" >&2; exit 2; }
 "$video" render -o performance --frames 10 --fps 8 --seed 1 >/dev/null
-"$video" track performance.mp4 -o performance.csv --neutral 0:2 --sheet made/video_capture.png --quiet >/dev/null
+"$video" track performance.mp4 -o performance.csv --neutral 0:1 --sheet made/video_capture.png --quiet >/dev/null
 
 # Control points of the mean, with their displacements.
 "$mimik" model work --source mean --expression 12,4,15 -o models --quiet >/dev/null

@@ -273,7 +273,8 @@ private:
         const auto patch = cut_patch(frame, place);
         const auto levels = levels_of(patch, followed.weights, options_.fit);
         followed.contrast = fit_all(curves, levels, false);
-        if (followed.age % options_.look_every_frames == 2) compete(curves, levels);
+        if (followed.age % options_.look_every_frames == std::min(2, options_.look_every_frames - 1))
+            compete(curves, levels);
         if (followed.contrast < 0.5 * options_.least_contrast) return false;
         followed.curves = mapped(curves, [&](const Pixel& p) { return place.frame_from_patch(p); });
         followed.place = between(place, place_of_eyes(followed.curves), 0.15);

@@ -11,6 +11,7 @@
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "video/curve_picture.h"
 #include "video/video_file.h"
 
@@ -18,6 +19,18 @@ namespace mimik::video {
 namespace {
 
 const Eigen::Vector2d half_pixel(0.5, 0.5);  // motion.csv has the first pixel's middle at (0.5, 0.5)
+
+// What decode_feature_motion() accepts; NaN is outside.
+bool fits_motion(const capture::HeadPose& pose) {
+    constexpr double farthest_head_mm = 1e5, most_turn_rad = 100;
+    return pose.rotation_vector.allFinite() && pose.rotation_vector.cwiseAbs().maxCoeff() <= most_turn_rad &&
+           pose.translation_mm.allFinite() && pose.translation_mm.cwiseAbs().maxCoeff() <= farthest_head_mm;
+}
+bool fits_motion(const Pixel& pixel, const geometry::Point& head_mm) {
+    constexpr double farthest_feature_mm = 1e3, most_pixels = 1e6;
+    return head_mm.allFinite() && head_mm.cwiseAbs().maxCoeff() <= farthest_feature_mm && pixel.allFinite() &&
+           pixel.cwiseAbs().maxCoeff() <= most_pixels;
+}
 
 /// What this thread has taken of the processor: decoders have threads of their own.
 double thread_seconds() {
@@ -42,7 +55,7 @@ public:
     void add(const std::optional<TrackedFace>& face) {
         waiting_.push_back(face);
         const long frame = written_ + static_cast<long>(waiting_.size()) - 1;
-        if (head_ || frame + 1 < options_.neutral_to) {
+        if (head_ || frame < options_.neutral_to) {
             if (head_) flush();
             return;
         }
@@ -60,6 +73,8 @@ public:
         return head_.has_value();
     }
     [[nodiscard]] bool late_neutral() const { return late_neutral_; }
+    [[nodiscard]] long tracked() const { return tracked_; }            ///< rows
+    [[nodiscard]] long without_pose() const { return without_pose_; }  ///< rows lost though a face was seen
 
 private:
     static Points68 points_of(const TrackedFace& face) {
@@ -89,7 +104,7 @@ private:
         };
         for (std::size_t k = 0; k < waiting_.size(); ++k) {
             const long frame = written_ + static_cast<long>(k);
-            if (waiting_[k] && frame >= options_.neutral_from && frame < options_.neutral_to) add_face(*waiting_[k]);
+            if (waiting_[k] && frame >= options_.neutral_from && frame <= options_.neutral_to) add_face(*waiting_[k]);
         }
         if (count == 0)
             for (const auto& face : waiting_)
@@ -122,25 +137,34 @@ private:
         if (face && head_) {
             points = points_of(*face);
             pose = head_->pose(*points, last_pose_);
+            if (pose && !fits_motion(*pose)) pose.reset();
+            if (!pose) ++without_pose_;
         }
+        last_pose_ = pose;  // as it was measured: a smoothed pose lags, and rays through it miss
         if (pose) {
             const auto known = known_of(*face);
             head_->fill(*points, known, *pose);
-            if (options_.smooth)
-                for (int a = 0; a < 3; ++a) {
-                    pose->translation_mm[a] = smooth(static_cast<std::size_t>(a), pose->translation_mm[a]);
-                    pose->rotation_vector[a] = smooth(static_cast<std::size_t>(3 + a), pose->rotation_vector[a]);
-                }
+            auto written_pose = *pose;
+            for (int a = 0; a < 3; ++a) {
+                auto& shift = written_pose.translation_mm[a];
+                auto& turn = written_pose.rotation_vector[a];
+                shift = smooth(static_cast<std::size_t>(a), shift);
+                turn = smooth(static_cast<std::size_t>(3 + a), turn);
+            }
+            ++tracked_;
             row.state = capture::TrackState::tracked;
-            row.confidence = face->confidence;
-            row.camera_from_head = pose;
+            row.confidence = face->confidence >= 0 ? std::min(face->confidence, 1.0) : 0;
+            row.camera_from_head = written_pose;
             for (std::size_t f = 0; f < features.size(); ++f) {
                 const auto k = static_cast<std::size_t>(features[f].point68);
                 if (!known[k]) continue;
+                const Pixel pixel = (*points)[k] + half_pixel;
+                const auto head_mm = head_->head_point_mm(k, (*points)[k], *pose);
+                if (!fits_motion(pixel, head_mm)) continue;  // a ray along its plane
                 auto& sample = row.features[f];
                 sample.valid = sample.in_image = true;
-                sample.pixel = (*points)[k] + half_pixel;
-                sample.head_mm = head_->head_point_mm(k, (*points)[k], *pose);
+                sample.pixel = pixel;
+                sample.head_mm = head_mm;
                 for (int a = 0; a < 3; ++a)
                     sample.head_mm[a] = smooth(6 + 3 * f + static_cast<std::size_t>(a), sample.head_mm[a]);
             }
@@ -148,7 +172,6 @@ private:
             points.reset();
             for (auto& filter : filters_) filter.restart();
         }
-        last_pose_ = pose;
         motion_ << capture::feature_motion_row(static_cast<std::size_t>(written_), row);
         if (landmarks_) *landmarks_ << landmarks68_row(written_, points);
         ++written_;
@@ -163,7 +186,7 @@ private:
     std::optional<FittedHead> head_;
     std::optional<capture::HeadPose> last_pose_;
     std::vector<OneEuroFilter> filters_;
-    long written_ = 0;
+    long written_ = 0, tracked_ = 0, without_pose_ = 0;
     bool late_neutral_ = false;
 };
 
@@ -173,11 +196,44 @@ void with_file(const std::filesystem::path& file, const std::function<void(std::
     base::write_atomically(file, [&](std::ostream& out) { use(&out); });
 }
 
+/// How far the times of a file are from those of a steady rate. The second frame is the start: of the first, some
+/// files say when it was decoded, not when it is shown.
+class FrameTimes {
+public:
+    explicit FrameTimes(double rate_hz) : rate_hz_(rate_hz) {}
+    void add(std::optional<double> time_s) {
+        const long frame = frame_++;
+        if (frame == 0 || !time_s) return;
+        const double shift_s = *time_s - static_cast<double>(frame) / rate_hz_;
+        if (!start_s_) start_s_ = shift_s;
+        worst_s_ = std::max(worst_s_, std::abs(shift_s - *start_s_));
+    }
+    [[nodiscard]] double worst_s() const { return worst_s_; }
+
+private:
+    double rate_hz_, worst_s_ = 0;
+    std::optional<double> start_s_;
+    long frame_ = 0;
+};
+
+/// Writes what waits, and tells the report.
+void say_of_rows(Rows& rows, TrackVideoReport& report) {
+    if (!rows.finish()) report.remarks.emplace_back("no face was found in any frame: every row is lost");
+    if (rows.late_neutral())
+        report.remarks.emplace_back(
+            "no face was found in the neutral frames: the first face that was found is taken for neutral");
+    report.tracked = rows.tracked();
+    if (rows.without_pose() > 0)
+        report.remarks.push_back(fmt::format("the head had no pose in {} in which a face was seen: these rows are lost",
+                                             base::counted(static_cast<std::size_t>(rows.without_pose()), "frame")));
+}
+
 void follow(VideoReader& reader, FeatureTracker& tracker, std::ostream& motion, std::ostream* landmarks,
             const TrackVideoFiles& files, const TrackVideoOptions& options, TrackVideoReport& report) {
     io::Image frame;
     std::optional<Rows> rows;
     std::optional<VideoWriter> video;
+    FrameTimes times(report.rate_hz);
     if (!files.video.empty()) video.emplace(files.video, report.rate_hz);
     ContactSheet sheet;
     const long said = options.most_frames > 0 && reader.frames() > 0 ? std::min(options.most_frames, reader.frames())
@@ -189,7 +245,7 @@ void follow(VideoReader& reader, FeatureTracker& tracker, std::ostream& motion, 
         const auto face = tracker.next(frame);
         report.seconds += thread_seconds() - begun_s;
         rows->add(face);
-        if (face) ++report.tracked;
+        times.add(reader.time_s());
         if (face && face->found_anew) ++report.found_anew;
         if (!files.sheet.empty() && report.frames % every == 0)
             sheet.add(
@@ -200,10 +256,12 @@ void follow(VideoReader& reader, FeatureTracker& tracker, std::ostream& motion, 
         draw_face(frame, face);
         video->add(frame);
     }
-    if (rows && !rows->finish()) report.remarks.emplace_back("no face was found in any frame: every row is lost");
-    if (rows && rows->late_neutral())
-        report.remarks.emplace_back(
-            "no face was found in the neutral frames: the first face that was found is taken for neutral");
+    if (rows) say_of_rows(*rows, report);
+    if (!reader.is_camera() && times.worst_s() > 0.5 / report.rate_hz)
+        report.remarks.push_back(fmt::format(
+            "the file's own times differ by up to {:.3f} s from {:g} frames a second, which the rows go by: "
+            "make its rate constant (ffmpeg -i IN -vsync cfr OUT.mp4)",
+            times.worst_s(), report.rate_hz));
     if (video) video->finish();
     if (!files.sheet.empty()) io::write_png(files.sheet, sheet.image());
     if (reader.frames() > report.frames + 2 && options.most_frames == 0)
@@ -217,8 +275,8 @@ void TrackVideoOptions::check() const {
     constexpr int most_waiting = 1000;  // rows that wait for the neutral frames are kept in memory
     camera.check();
     one_euro.check();
-    if (neutral_from < 0 || neutral_to <= neutral_from || neutral_to > most_waiting)
-        throw InputError(fmt::format("neutral frames are {} to {}; give two frames A:B with 0 <= A < B <= {}",
+    if (neutral_from < 0 || neutral_to < neutral_from || neutral_to >= most_waiting)
+        throw InputError(fmt::format("neutral frames are {} to {}; give two frames A:B with 0 <= A <= B < {}",
                                      neutral_from, neutral_to, most_waiting));
     if (most_frames < 0) throw InputError(fmt::format("most_frames is {}; give 0 or more", most_frames));
 }
@@ -226,6 +284,9 @@ void TrackVideoOptions::check() const {
 TrackVideoReport track_video(const std::string& source, FeatureTracker& tracker, const TrackVideoFiles& files,
                              const TrackVideoOptions& options) {
     options.check();
+    if (options.most_frames == 0 && names_a_camera(source))
+        throw InputError(fmt::format(
+            "camera {}: never ends, and no number of frames is given; say how many, such as --frames 300", source));
     VideoReader reader(source);
     TrackVideoReport report;
     report.rate_hz = reader.rate_hz();

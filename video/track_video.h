@@ -16,13 +16,13 @@ namespace mimik::video {
 
 struct TrackVideoOptions {
     CameraOptions camera = {};
-    /// Frames, the last one not among them, in which the performer's face is at rest; the head is fitted to the mean of
+    /// Frames, the last one among them, in which the performer's face is at rest; the head is fitted to the mean of
     /// those that were tracked.
     int neutral_from = 0;
-    int neutral_to = 10;
+    int neutral_to = 9;
     bool smooth = false;  ///< the one-euro filter on pose and features
     OneEuroOptions one_euro = {};
-    long most_frames = 0;  ///< 0: to the end
+    long most_frames = 0;  ///< 0: to the end; a camera has none
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
         visit("camera", self.camera);
@@ -45,17 +45,18 @@ struct TrackVideoFiles {
 };
 
 struct TrackVideoReport {
-    long frames = 0, tracked = 0;
-    long found_anew = 0;  ///< times that the face was found, the first among them
-    double seconds = 0;   ///< of the processor's time for tracking alone
+    long frames = 0, tracked = 0;  ///< rows, and those that are not lost
+    long found_anew = 0;           ///< times that the face was found, the first among them
+    double seconds = 0;            ///< of the processor's time for tracking alone
     double rate_hz = 0;
     std::vector<std::string> remarks;
     [[nodiscard]] double frames_a_second() const { return seconds > 0 ? static_cast<double>(frames) / seconds : 0; }
 };
 
 /// Follows the face of a video, and writes a row for every frame: one in which there is no face is `lost`, and nothing
-/// is said of its features. Memory does not grow with the video; rows wait until the neutral frames have been seen.
-/// @throws InputError if the video cannot be read, or no frame of the neutral ones shows a face
+/// is said of its features. Memory does not grow with the video; rows wait until the neutral frames have been seen. If
+/// none of those shows a face, the first face after them is taken for neutral, and a remark says so.
+/// @throws InputError if the video cannot be read, or is a camera without most_frames
 [[nodiscard]] TrackVideoReport track_video(const std::string& source, FeatureTracker& tracker,
                                            const TrackVideoFiles& files, const TrackVideoOptions& options = {});
 

@@ -19,18 +19,44 @@ namespace mimik::video {
 
 void use_one_thread() { cv::setNumThreads(1); }
 
+namespace {
+
+bool is_camera_number(const std::string& source) {
+    return !source.empty() && source.size() < 4 &&
+           std::all_of(source.begin(), source.end(), [](unsigned char c) { return std::isdigit(c); });
+}
+
+/// Frames that a file holds; 0: it cannot be read.
+long frames_in(const std::filesystem::path& file) {
+    try {
+        cv::VideoCapture capture(file.string());
+        if (!capture.isOpened()) return 0;
+        const double said = capture.get(cv::CAP_PROP_FRAME_COUNT);
+        if (said > 0 && said < 1e9) return std::lround(said);
+        long count = 0;
+        while (capture.grab()) ++count;
+        return count;
+    } catch (const cv::Exception&) {
+        return 0;
+    }
+}
+
+}  // namespace
+
+bool names_a_camera(const std::string& source) { return is_camera_number(source) || source.starts_with("/dev/video"); }
+
 struct VideoReader::Parts {
     std::string name;
     cv::VideoCapture capture;
     cv::Mat frame, first;
     bool camera = false;
+    double time_ms = 0;
 };
 
 VideoReader::VideoReader(const std::string& source) : parts_(std::make_unique<Parts>()) {
     parts_->name = source;
-    const bool number = !source.empty() && source.size() < 4 &&
-                        std::all_of(source.begin(), source.end(), [](unsigned char c) { return std::isdigit(c); });
-    parts_->camera = number || source.starts_with("/dev/video");
+    const bool number = is_camera_number(source);
+    parts_->camera = names_a_camera(source);
     if (!parts_->camera && !base::is_there(source))
         throw InputError(fmt::format("{}: there is no such file, and no camera has that name", source));
     if (std::filesystem::is_directory(source))
@@ -66,6 +92,11 @@ long VideoReader::frames() const {
     return !parts_->camera && count > 0 && count < 1e9 ? std::lround(count) : 0;
 }
 
+std::optional<double> VideoReader::time_s() const {
+    if (!(parts_->time_ms > 0 && parts_->time_ms < 1e12)) return std::nullopt;
+    return 1e-3 * parts_->time_ms;
+}
+
 bool VideoReader::next(io::Image& frame) {
     if (!parts_->first.empty()) {
         parts_->frame = parts_->first;
@@ -79,6 +110,7 @@ bool VideoReader::next(io::Image& frame) {
     }
     const auto& from = parts_->frame;
     if (from.empty() || from.depth() != CV_8U) return false;
+    parts_->time_ms = parts_->capture.get(cv::CAP_PROP_POS_MSEC);
     frame.width = from.cols;
     frame.height = from.rows;
     frame.rgb.resize(3 * from.total());
@@ -92,6 +124,7 @@ struct VideoWriter::Parts {
     double rate_hz = 30;
     cv::VideoWriter writer;
     cv::Size size;
+    long frames = 0;
 };
 
 VideoWriter::VideoWriter(const std::filesystem::path& file, double rate_hz) : parts_(std::make_unique<Parts>()) {
@@ -131,6 +164,7 @@ void VideoWriter::add(const io::Image& frame) {
     cv::Mat to;
     cv::cvtColor(from(cv::Rect(0, 0, size.width, size.height)), to, cv::COLOR_RGB2BGR);
     p.writer.write(to);
+    ++p.frames;
 }
 
 void VideoWriter::finish() {
@@ -138,6 +172,12 @@ void VideoWriter::finish() {
     if (!p.writer.isOpened()) throw InputError(fmt::format("{}: there is no frame to write", p.file.string()));
     p.writer.release();
     std::error_code error;
+    // OpenCV's writer tells of no error, not even of a full disk.
+    if (const long held = frames_in(p.part); held != p.frames) {
+        std::filesystem::remove(p.part, error);
+        throw InputError(fmt::format("{}: holds {} of {} frames and was removed; is the disk full?", p.file.string(),
+                                     held, p.frames));
+    }
     std::filesystem::rename(p.part, p.file, error);
     if (error) throw InputError(fmt::format("{}: cannot be written: {}", p.file.string(), error.message()));
 }

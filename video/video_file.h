@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "io/image.h"
@@ -10,6 +11,9 @@ namespace mimik::video {
 
 /// OpenCV's functions stay on the thread that calls them.
 void use_one_thread();
+
+/// The number of a camera ("0"), or its device ("/dev/video0").
+[[nodiscard]] bool names_a_camera(const std::string& source);
 
 /// A video file or a camera, frame after frame, by what OpenCV decodes.
 class VideoReader {
@@ -24,6 +28,8 @@ public:
     [[nodiscard]] double rate_hz() const;  ///< 30 where the file does not say
     [[nodiscard]] long frames() const;     ///< as the file says; 0: it does not, or it is a camera
     [[nodiscard]] bool is_camera() const;
+    /// When the last frame is shown, as the file says; none: it does not say.
+    [[nodiscard]] std::optional<double> time_s() const;
 
 private:
     struct Parts;
@@ -38,6 +44,7 @@ public:
     ~VideoWriter();
     /// All frames have the size of the first; an odd last row or column is left out.
     void add(const io::Image& frame);
+    /// @throws InputError if the file does not hold every frame, such as on a full disk; it is then removed
     void finish();
 
 private:

@@ -9,6 +9,11 @@ expect_code 2 "install libopencv-dev and opencv-data" alone/mimik capture take.m
 rm -r alone
 expect_code 2 "--output is 'motion.txt'; it is written as .csv" "$mimik" capture take.mp4 -o motion.txt
 expect_code 2 "--neutral is '5'; give two frames A:B" "$mimik" capture take.mp4 -o motion.csv --neutral 5
+echo "a take" >take.mp4
+expect_code 2 "--video is './take.mp4', the same file as VIDEO" "$mimik" capture take.mp4 -o motion.csv --video ./take.mp4
+expect_code 2 "--landmarks68 is 'x.csv', the same file as --output" "$mimik" capture take.mp4 -o x.csv --landmarks68 x.csv
+[ "$(cat take.mp4)" = "a take" ] || fail "take.mp4 was written over"
+rm take.mp4
 claim "without OpenCV's program it is said what to install, and options are checked before"
 
 video=$(dirname "$mimik")/mimik-video
@@ -18,7 +23,7 @@ if [ ! -x "$video" ]; then
 fi
 "$video" render -o made --frames 4 --fps 25 --width 480 --height 360 >/dev/null
 [ "$(wc -l <made_points.csv)" = 5 ] || fail "made_points.csv: $(wc -l <made_points.csv) lines"
-"$mimik" capture made.mp4 -o motion.csv --neutral 0:2 --landmarks68 points.csv --sheet sheet.png --video seen.mp4 --json >said.json
+"$mimik" capture made.mp4 -o motion.csv --neutral 0:1 --landmarks68 points.csv --sheet sheet.png --video seen.mp4 --json >said.json
 python3 - said.json <<'CHECK' || fail "$(cat said.json)"
 import json, sys
 d = json.load(open(sys.argv[1]))
@@ -28,7 +33,7 @@ CHECK
 [ "$(head -1 points.csv | cut -d, -f1-4)" = frame,detected,x0,y0 ] || fail "$(head -1 points.csv)"
 [ "$(wc -l <points.csv)" = 5 ] || fail "points.csv: $(wc -l <points.csv) lines"
 [ -s sheet.png ] && [ -s seen.mp4 ] || fail "no sheet or no video"
-"$mimik" capture made.mp4 -o again.csv --neutral 0:2 --quiet
+"$mimik" capture made.mp4 -o again.csv --neutral 0:1 --quiet
 cmp motion.csv again.csv
 claim "every frame has a row, and the same video gives the same bytes"
 
@@ -37,11 +42,12 @@ cp sheet.png frames/frame_000000.png
 cp sheet.png frames/frame_000001.png
 "$video" write frames out.mp4 --fps 10 >/dev/null
 [ -s out.mp4 ] || fail "no out.mp4"
+[ -z "$("$video" write frames out.mp4 --fps 10 --quiet)" ] || fail "write --quiet speaks"
 expect_code 2 "frames2: is no folder" "$video" write frames2 out.mp4
 claim "a folder of pictures is written as a video"
 
 "$video" train made.mp4 made_points.csv -o colours.yml >/dev/null
-"$mimik" capture made.mp4 -o own.csv --neutral 0:2 --colours colours.yml --quiet
+"$mimik" capture made.mp4 -o own.csv --neutral 0:1 --colours colours.yml --quiet
 expect_code 2 "not a colour network of Mimik" "$mimik" capture made.mp4 -o own.csv --colours made_points.csv
 claim "a performer's own colours are learnt and used"
 
@@ -50,6 +56,7 @@ head -c 2000 made.mp4 >cut.mp4
 expect_code 2 "text.mp4: no frame can be decoded" "$mimik" capture text.mp4 -o o.csv
 expect_code 2 "cut.mp4: no frame can be decoded" "$mimik" capture cut.mp4 -o o.csv
 expect_code 2 "nowhere.mp4: there is no such file" "$mimik" capture nowhere.mp4 -o o.csv
+expect_code 2 "camera 0: never ends" "$mimik" capture 0 -o o.csv
 expect_code 2 "--tracker is 'best'" "$mimik" capture made.mp4 -o o.csv --tracker best
 [ ! -e o.csv ] || fail "o.csv was left"
 claim "what is no video is refused and leaves no table"

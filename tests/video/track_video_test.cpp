@@ -1,6 +1,9 @@
 #include "video/track_video.h"
 
+#include <algorithm>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -55,6 +58,101 @@ TEST(Landmarks68, a_row_reads_back_and_a_lost_one_has_empty_fields) {
     EXPECT_EQ(rows[0].frame, 1);
     for (std::size_t k = 0; k < 68; ++k) EXPECT_LT((rows[0].points[k] - points[k]).norm(), 0.01);  // two decimals
     EXPECT_THAT(landmarks68_row(0, std::nullopt), testing::StartsWith("0,0,,,"));
+}
+
+/// Gives the points that it was told, frame after frame.
+class ToldTracker final : public FeatureTracker {
+public:
+    explicit ToldTracker(std::vector<Points68> told) : told_(std::move(told)) {}
+    [[nodiscard]] std::string name() const override { return "told"; }
+    [[nodiscard]] std::optional<TrackedFace> next(const io::Image&) override {
+        TrackedFace face;
+        face.confidence = 1;
+        face.points = told_.at(next_++);
+        return face;
+    }
+    void restart() override { next_ = 0; }
+
+private:
+    std::vector<Points68> told_;
+    std::size_t next_ = 0;
+};
+
+/// The mean face at rest before a camera of 320 x 240 pixels, `right_mm` aside.
+Points68 seen_aside(double right_mm) {
+    Points68 seen;
+    for (std::size_t k = 0; k < 68; ++k) {
+        const auto& p = mean_face_points68_mm()[k];
+        const double focal_px = 1.2 * 320, z = 600 - p.z();
+        seen[k] = {focal_px * (p.x() + right_mm) / z + 159.5, focal_px * -p.y() / z + 119.5};
+    }
+    return seen;
+}
+
+std::string grey_video(const std::string& name, std::size_t frames) {
+    io::Image grey;
+    grey.width = 320;
+    grey.height = 240;
+    grey.rgb.assign(3 * 320 * 240, 100);
+    VideoWriter writer(place(name), 25);
+    for (std::size_t k = 0; k < frames; ++k) writer.add(grey);
+    writer.finish();
+    return place(name).string();
+}
+
+TEST(TrackVideo, a_smoothed_pose_lags_and_features_of_a_rigid_head_stay_where_they_are) {
+    std::vector<Points68> told;
+    for (int k = 0; k < 12; ++k) told.push_back(seen_aside(6.0 * std::max(0, k - 2)));
+    const auto source = grey_video("aside.mp4", told.size());
+    TrackVideoOptions options;
+    options.neutral_to = 1;
+    const auto followed = [&](bool smooth, const std::string& name) {
+        ToldTracker tracker(told);
+        options.smooth = smooth;
+        const auto report = track_video(source, tracker, {place(name), {}, {}, {}}, options);
+        EXPECT_EQ(report.tracked, 12);
+        EXPECT_THAT(report.remarks, testing::IsEmpty());
+        return capture::read_feature_motion(place(name));
+    };
+    const auto raw = followed(false, "raw.csv"), smooth = followed(true, "smooth.csv");
+    double most_lag_mm = 0;
+    for (std::size_t k = 0; k < told.size(); ++k) {
+        ASSERT_TRUE(raw.frames[k].camera_from_head && smooth.frames[k].camera_from_head) << k;
+        most_lag_mm = std::max(most_lag_mm, (raw.frames[k].camera_from_head->translation_mm -
+                                             smooth.frames[k].camera_from_head->translation_mm)
+                                                .norm());
+        for (std::size_t f = 0; f < smooth.names.size(); ++f)
+            EXPECT_LT((smooth.frames[k].features[f].head_mm - smooth.frames[0].features[f].head_mm).norm(), 0.5);
+    }
+    EXPECT_GT(most_lag_mm, 0.5);
+}
+
+TEST(TrackVideo, what_a_motion_cannot_hold_is_not_written) {
+    std::vector<Points68> told(4, seen_aside(0));
+    told[2][48] = {1e9, 0};                  // a feature
+    for (auto& p : told[3]) p = {1e9, 1e9};  // and a head
+    ToldTracker tracker(told);
+    TrackVideoOptions options;
+    options.neutral_to = 1;
+    const auto report =
+        track_video(grey_video("far.mp4", told.size()), tracker, {place("far.csv"), {}, {}, {}}, options);
+    const auto motion = capture::read_feature_motion(place("far.csv"));
+    ASSERT_EQ(motion.frames.size(), 4U);
+    EXPECT_EQ(motion.frames[2].state, capture::TrackState::tracked);
+    EXPECT_FALSE(motion.frames[2].features[motion.find("mouth_corner_right").value()].valid);
+    EXPECT_TRUE(motion.frames[2].features[motion.find("mouth_corner_left").value()].valid);
+    long tracked = 0;
+    for (const auto& frame : motion.frames) tracked += frame.state == capture::TrackState::tracked;
+    EXPECT_EQ(report.tracked, tracked);
+}
+
+TEST(TrackVideo, a_camera_without_a_number_of_frames_is_refused) {
+    ToldTracker tracker({});
+    EXPECT_THAT(
+        [&] {
+            (void)track_video("/dev/video0", tracker, {place("camera.csv"), {}, {}, {}});
+        },
+        testing::ThrowsMessage<InputError>(testing::HasSubstr("camera /dev/video0: never ends")));
 }
 
 TEST(TrackVideo, neutral_frames_in_the_wrong_order_are_refused) {
