@@ -205,14 +205,14 @@ public:
         const long frame = frame_++;
         if (frame == 0 || !time_s) return;
         const double shift_s = *time_s - static_cast<double>(frame) / rate_hz_;
-        if (!start_s_) start_s_ = shift_s;
-        worst_s_ = std::max(worst_s_, std::abs(shift_s - *start_s_));
+        if (!std::exchange(started_, true)) start_s_ = shift_s;
+        worst_s_ = std::max(worst_s_, std::abs(shift_s - start_s_));
     }
     [[nodiscard]] double worst_s() const { return worst_s_; }
 
 private:
-    double rate_hz_, worst_s_ = 0;
-    std::optional<double> start_s_;
+    double rate_hz_, worst_s_ = 0, start_s_ = 0;
+    bool started_ = false;
     long frame_ = 0;
 };
 
