@@ -44,7 +44,7 @@ void require_same_database(const ExperimentFolder& folder, const evaluation::Exp
     throw InputError(
         fmt::format("{}: scans of {} were preprocessed, not of {}; give another folder with -o, or that "
                     "database",
-                    mark.string(), base::in_quotes(there.string()), base::in_quotes(own.string())));
+                    mark.string(), there.empty() ? "another database" : there.string(), own.string()));
 }
 
 /// Reads every performance and studies it once: what is registered on the way is kept in the workspace, so that no two
