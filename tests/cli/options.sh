@@ -98,7 +98,7 @@ fi
 "$mimik" help --format zsh >zsh.txt
 for command in $commands; do
   grep -q "^.SS $command\$" man.txt || fail "manual of $command"
-  for option in $("$mimik" $command --help | grep -oE '^  (-[a-zA-Z], )?--[a-z-]+' | grep -oE -- '--[a-z-]+'); do
+  for option in $("$mimik" $command --help | grep -oE '^  (-[a-zA-Z], )?--[a-z0-9-]+' | grep -oE -- '--[a-z0-9-]+'); do
     sed -n "/^.SS $command\$/,/^.S[SH] /p" man.txt | grep -qF -- "$option" || fail "$option of $command is not in the manual"
     grep "^        $command) words=" bash.txt | grep -qF -- "$option" || fail "$option of $command is not completed in bash"
     sed -n "/^    $command)\$/,/;;/p" zsh.txt | grep -qF -- "'*$option[" || fail "$option of $command is not completed in zsh"
