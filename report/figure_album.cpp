@@ -10,6 +10,7 @@
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/markup.h"
 #include "base/output_folder.h"
 #include "base/parallel.h"
 #include "base/temporary.h"
@@ -67,23 +68,6 @@ PanelDescription write_panel(const fs::path& folder, const std::string& stem, co
         write_arrows(description.arrows, panel.arrows.front().arrows);
     }
     return description;
-}
-
-std::string html_text(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
 }
 
 /// One figure's files.
@@ -158,7 +142,7 @@ std::string html_table(const FigureTable& table) {
     std::string text = "<table>\n";
     const auto add = [&](const std::vector<std::string>& cells, const char* tag) {
         text += "<tr>";
-        for (const auto& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, html_text(cell));
+        for (const auto& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, base::markup_text(cell));
         text += "</tr>\n";
     };
     add(table.header, "th");
@@ -169,9 +153,10 @@ std::string html_table(const FigureTable& table) {
 std::string index_page(const std::vector<AlbumEntry>& entries) {
     std::string body;
     for (const auto& entry : entries) {
-        body += fmt::format("<section id=\"{0}\"><h2>{0}: {1}</h2>\n", html_text(entry.name), html_text(entry.title));
+        body += fmt::format("<section id=\"{0}\"><h2>{0}: {1}</h2>\n", base::markup_text(entry.name),
+                            base::markup_text(entry.title));
         if (!entry.failure.empty()) {
-            body += fmt::format("<p class=\"missing\">Not made: {}</p></section>\n", html_text(entry.failure));
+            body += fmt::format("<p class=\"missing\">Not made: {}</p></section>\n", base::markup_text(entry.failure));
             continue;
         }
         // The picture of a figure; of a plot its SVG, which is there first.
@@ -180,11 +165,13 @@ std::string index_page(const std::vector<AlbumEntry>& entries) {
         });
         if (shown != entry.files.end())
             body += fmt::format("<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" loading=\"lazy\"></a>\n",
-                                html_text(shown->string()), html_text(entry.title));
-        body += html_table(entry.table) + fmt::format("<p>{}</p>\n", html_text(entry.caption));
-        for (const auto& remark : entry.remarks) body += fmt::format("<p class=\"remark\">{}</p>\n", html_text(remark));
+                                base::markup_text(shown->string()), base::markup_text(entry.title));
+        body += html_table(entry.table) + fmt::format("<p>{}</p>\n", base::markup_text(entry.caption));
+        for (const auto& remark : entry.remarks)
+            body += fmt::format("<p class=\"remark\">{}</p>\n", base::markup_text(remark));
         body += "<p class=\"files\">";
-        for (const auto& file : entry.files) body += fmt::format("<a href=\"{0}\">{0}</a> ", html_text(file.string()));
+        for (const auto& file : entry.files)
+            body += fmt::format("<a href=\"{0}\">{0}</a> ", base::markup_text(file.string()));
         body += "</p></section>\n";
     }
     return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Figures</title>\n"

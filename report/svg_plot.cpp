@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/markup.h"
 #include "base/quantile.h"
 
 namespace mimik::report {
@@ -16,23 +17,6 @@ using figures::Colour;
 
 constexpr double letter_px = 7.4;  // mean width of a letter of 13 pixels in DejaVu Sans
 constexpr const char* ink = "#202020";
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else if (static_cast<unsigned char>(c) >= 0x20)
-            out += c;
-    }
-    return out;
-}
 
 std::string hex(const Colour& c) { return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]); }
 
@@ -68,7 +52,7 @@ public:
     void text(double x, double y, const std::string& words, const char* anchor = "middle", int size = 13,
               const char* more = "") {
         body_ += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
-                             size, anchor, more, escaped(words));
+                             size, anchor, more, base::markup_text(words));
     }
     void line(double x1, double y1, double x2, double y2, const std::string& colour, double width = 1) {
         body_ += fmt::format(
@@ -137,10 +121,11 @@ void draw_line_plot(Page& page, const LinePlot& plot, double left, double top, d
     x_axis(page, x, top, top + height, plot.x_label);
     y_axis(page, y, left, left + width, plot.y_label);
     for (const auto& line : plot.lines)
-        page.raw(fmt::format(
-            "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" stroke-linejoin=\"round\""
-            "{}><title>{}</title></path>",
-            path_of(line, x, y), hex(line.colour), line.dashed ? " stroke-dasharray=\"6 4\"" : "", escaped(line.name)));
+        page.raw(
+            fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" stroke-linejoin=\"round\""
+                        "{}><title>{}</title></path>",
+                        path_of(line, x, y), hex(line.colour), line.dashed ? " stroke-dasharray=\"6 4\"" : "",
+                        base::markup_text(line.name)));
 }
 
 /// Rows with names on the left, an axis of numbers beneath.
@@ -232,8 +217,8 @@ std::string box_plot_svg(const std::string& title, const std::string& label, std
             fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"20\" fill=\"{}\" "
                         "fill-opacity=\"0.25\" stroke=\"{}\"><title>{}: median {:.3g}, quartiles {:.3g} and "
                         "{:.3g}, mean {:.3g}, n = {}</title></rect>",
-                        x.px(q1), y - 10, x.px(q3) - x.px(q1), colour, colour, escaped(groups[k].name), median, q1, q3,
-                        mean, values.size()));
+                        x.px(q1), y - 10, x.px(q3) - x.px(q1), colour, colour, base::markup_text(groups[k].name),
+                        median, q1, q3, mean, values.size()));
         page.line(x.px(median), y - 10, x.px(median), y + 10, colour, 2.4);
         page.raw(fmt::format("<path d=\"M{0:.2f} {1:.2f}l4 4l-4 4l-4 -4z\" fill=\"{2}\"/>", x.px(mean), y - 4, ink));
         for (const double value : values)

@@ -11,6 +11,7 @@
 #include <zlib.h>
 
 #include "base/errors.h"
+#include "base/markup.h"
 #include "base/text.h"
 #include "io/formats/bytes.h"
 #include "io/formats/xml.h"
@@ -461,29 +462,12 @@ private:
     bool appended_is_raw_ = false, swap_ = false, wide_header_ = false, compressed_ = false;
 };
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-    return out;
-}
-
 /// A text as VTK has it in a file: the codes of its bytes, closed by a zero.
 std::string string_array(const std::string& name, const std::string& text) {
     auto xml = fmt::format(
         "<Array type=\"String\" Name=\"{}\" NumberOfComponents=\"1\" NumberOfTuples=\"1\" "
         "format=\"ascii\">\n",
-        escaped(name));
+        base::markup_text(name));
     for (const char c : text) xml += fmt::format("{} ", static_cast<int>(static_cast<unsigned char>(c)));
     return xml + "0\n</Array>\n";
 }
@@ -496,7 +480,7 @@ public:
              std::optional<std::size_t> tuples = {}) {
         xml += fmt::format(
             "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"appended\" offset=\"{}\"/>\n",
-            type, escaped(std::string(name)), components,
+            type, base::markup_text(std::string(name)), components,
             tuples ? fmt::format(" NumberOfTuples=\"{}\"", *tuples) : std::string(), data.size());
         std::string bytes;
         bytes.reserve(values.size() * sizeof(T));
