@@ -8,28 +8,13 @@
 
 #include "base/errors.h"
 #include "base/parallel.h"
-#include "tests/database/temporary_folder.h"
 #include "tests/evaluation/smile_with_point.h"
-#include "tests/support/analytic_truth.h"
-#include "tests/support/analytic_workspace_files.h"
 
 namespace mimik::evaluation {
 namespace {
 
-/// Three people whose smile is a bump of motion about the mouth corners, the mouth corner its peak.
-class PointSensitivities : public testing::Test {
+class PointSensitivities : public test::SmileWorkspace {
 protected:
-    static void SetUpTestSuite() {
-        folder_ = new database::TemporaryFolder;
-        test::write_analytic_truth(folder_->path() / "db");
-        workspace_ = new preprocessing::Workspace(test::analytic_workspace(folder_->path()));
-        reader_ = new PerformanceReader(*workspace_);
-    }
-    static void TearDownTestSuite() {
-        delete reader_;
-        delete workspace_;
-        delete folder_;
-    }
     static UnitSensitivity of(const facs::FacsCatalogue& catalogue, const PointSensitivityOptions& options = {},
                               const char* method = "thesis", int unit = 12) {
         FailureList failures;
@@ -40,14 +25,7 @@ protected:
     static const PointSensitivity& point(const UnitSensitivity& unit, const std::string& name) {
         return *std::find_if(unit.points.begin(), unit.points.end(), [&](const auto& one) { return one.name == name; });
     }
-
-    static database::TemporaryFolder* folder_;
-    static preprocessing::Workspace* workspace_;
-    static PerformanceReader* reader_;
 };
-database::TemporaryFolder* PointSensitivities::folder_ = nullptr;
-preprocessing::Workspace* PointSensitivities::workspace_ = nullptr;
-PerformanceReader* PointSensitivities::reader_ = nullptr;
 
 TEST_F(PointSensitivities, find_no_better_place_around_a_tuned_point_and_one_around_a_point_that_is_off) {
     const auto off = test::smile_with_point(4);

@@ -2,7 +2,13 @@
 
 #include <string>
 
+#include <gtest/gtest.h>
+
+#include "evaluation/performance.h"
 #include "facs/facs_catalogue.h"
+#include "tests/database/temporary_folder.h"
+#include "tests/support/analytic_truth.h"
+#include "tests/support/analytic_workspace_files.h"
 
 namespace mimik::test {
 
@@ -26,5 +32,25 @@ inline facs::FacsCatalogue smile_with_point(double off_mm) {
         {"corner", facs::ControlKind::muscle, {{{"mouth_corner", 1.0}}, 0.0, off_mm / outer_eyes_mm}});
     return {facs::builtin_catalogue().sampling(), {unit}, {}, "smile"};
 }
+
+/// Three people whose smile is a bump of motion about the mouth corners, the mouth corner its peak.
+class SmileWorkspace : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = new database::TemporaryFolder;
+        write_analytic_truth(folder_->path() / "db");
+        workspace_ = new preprocessing::Workspace(analytic_workspace(folder_->path()));
+        reader_ = new evaluation::PerformanceReader(*workspace_);
+    }
+    static void TearDownTestSuite() {
+        delete reader_;
+        delete workspace_;
+        delete folder_;
+    }
+
+    inline static database::TemporaryFolder* folder_ = nullptr;
+    inline static preprocessing::Workspace* workspace_ = nullptr;
+    inline static evaluation::PerformanceReader* reader_ = nullptr;
+};
 
 }  // namespace mimik::test

@@ -5,29 +5,13 @@
 
 #include "base/errors.h"
 #include "base/parallel.h"
-#include "tests/database/temporary_folder.h"
 #include "tests/evaluation/smile_with_point.h"
-#include "tests/support/analytic_truth.h"
-#include "tests/support/analytic_workspace_files.h"
 
 namespace mimik::evaluation {
 namespace {
 
-/// Three people whose smile is a bump of motion about the mouth corners, the mouth corner its peak.
-class TunePoints : public testing::Test {
+class TunePoints : public test::SmileWorkspace {
 protected:
-    static void SetUpTestSuite() {
-        folder_ = new database::TemporaryFolder;
-        test::write_analytic_truth(folder_->path() / "db");
-        workspace_ = new preprocessing::Workspace(test::analytic_workspace(folder_->path()));
-        reader_ = new PerformanceReader(*workspace_);
-    }
-    static void TearDownTestSuite() {
-        delete reader_;
-        delete workspace_;
-        delete folder_;
-    }
-
     static TunedUnit tuned(const facs::FacsCatalogue& catalogue, TuneOptions options) {
         options.carried = false;
         options.most_vertices = 300;
@@ -37,15 +21,7 @@ protected:
         return tune_points(training, unseen, catalogue, 12, dynamic_cast<const animation::ModelMethod&>(*method),
                            options, failures);
     }
-
-    static database::TemporaryFolder* folder_;
-    static preprocessing::Workspace* workspace_;
-    static PerformanceReader* reader_;
 };
-
-database::TemporaryFolder* TunePoints::folder_ = nullptr;
-preprocessing::Workspace* TunePoints::workspace_ = nullptr;
-PerformanceReader* TunePoints::reader_ = nullptr;
 
 TEST_F(TunePoints, brings_a_point_that_was_put_off_back_to_where_it_does_best) {
     TuneOptions options;
