@@ -81,6 +81,7 @@ void add_verify_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, int& exit_code);
 void add_tune_command(CLI::App& app, int& exit_code);
 void add_sensitivity_command(CLI::App& app, int& exit_code);
+void add_additivity_command(CLI::App& app, int& exit_code);
 void add_warp_command(CLI::App& app, int& exit_code);
 void add_distance_command(CLI::App& app, int& exit_code);
 void add_figures_command(CLI::App& app, int& exit_code);

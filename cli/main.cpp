@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_compare_command(app, exit_code);
     mimik::cli::add_tune_command(app, exit_code);
     mimik::cli::add_sensitivity_command(app, exit_code);
+    mimik::cli::add_additivity_command(app, exit_code);
     mimik::cli::add_panels_command(app, exit_code);
     mimik::cli::add_figures_command(app, exit_code);
     mimik::cli::add_figure_command(app, exit_code);

@@ -31,7 +31,8 @@ struct Arguments {
     ComparisonRequest request;
     std::vector<std::string> action_units;
     std::vector<double> series;
-    bool keep_bridged = false, dry_run = false;
+    std::string holes = "fill";
+    bool dry_run = false;
 };
 
 struct Planned {
@@ -143,7 +144,7 @@ void tell(const std::filesystem::path& picture, const ComparisonFigure& figure) 
 int run(Arguments& arguments) {
     const preprocessing::Workspace workspace(arguments.workspace);
     const auto catalogue = arguments.method.catalogue();
-    if (arguments.keep_bridged) arguments.request.bridged = geometry::BridgedVertices::keep;
+    arguments.request.holes = report::parse_hole_drawing(arguments.holes);
     for (auto* subject : {&arguments.request.source, &arguments.request.target})
         *subject = subject_named(workspace, *subject);
     std::vector<facs::Expression> expressions;
@@ -209,7 +210,9 @@ void add_panels_command(CLI::App& app, int& exit_code) {
     command->add_option("--view", request.view, "Where the camera stands")
         ->check(CLI::IsMember({"front", "left", "right", "three-quarter-left", "three-quarter-right"}))
         ->capture_default_str();
-    command->add_flag("--keep-bridged", arguments->keep_bridged, "Keep surface over holes");
+    command->add_option("--holes", arguments->holes, "Of scans: fill (in a paler tone), gap, mark (in green)")
+        ->check(CLI::IsMember({"fill", "gap", "mark"}))
+        ->capture_default_str();
     add_output_folder(*command, arguments->output, "Folder for the pictures and the files they are drawn from")
         ->required();
     command->add_flag("--dry-run", arguments->dry_run, "List the pictures, say time and disk, make nothing");

@@ -30,11 +30,14 @@ else()
   message(FATAL_ERROR "MIMIK_EXECUTOR is '${MIMIK_EXECUTOR}'; give tbb or threads")
 endif()
 
-# For what only calls the code under test: with sanitizers it takes half the time to compile without optimisation.
+# For what only calls the rooms, programs and tests: half the time to compile without most of the optimisation, nothing of
+# the work is done there.
 add_library(mimik_caller INTERFACE)
 target_link_libraries(mimik_caller INTERFACE mimik_warnings)
 if(MIMIK_SANITIZE)
   target_compile_options(mimik_caller INTERFACE -O0)
+else()
+  target_compile_options(mimik_caller INTERFACE $<$<CONFIG:Release>:-O1>)
 endif()
 # mimik_take_optimised(test_modeling geometry modeling): of a template that both a caller and these layers
 # instantiate, the linker takes the first that it meets; let that be the optimised one.

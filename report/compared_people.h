@@ -13,6 +13,7 @@
 #include "modeling/expression_model.h"
 #include "modeling/source_expression.h"
 #include "preprocessing/workspace.h"
+#include "report/hole_drawing.h"
 
 // Who stands in a figure that compares faces, and what was done to them: what every picture of an expression is drawn
 // from, the panels (comparison_panels.h) as well as the figures of the thesis (named_figure.h).
@@ -29,7 +30,7 @@ struct ComparisonRequest {
     animation::AnimationOptions animation;
     double magnitude = 1.0;
     std::string view = "front";
-    geometry::BridgedVertices bridged = geometry::BridgedVertices::leave_out;
+    HoleDrawing holes = HoleDrawing::fill;
 };
 
 /// How near an animated face comes to the real expressive scan of the same person, in the AU's zone as the catalogue

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "animation/face_export.h"
 #include "animation/model_method.h"
 #include "base/csv.h"
 #include "base/errors.h"
@@ -19,12 +19,12 @@
 #include "evaluation/estimator.h"
 #include "evaluation/performance.h"
 #include "evaluation/surface_distance.h"
-#include "geometry/box.h"
 #include "geometry/landmark_spline.h"
 #include "geometry/statistics.h"
 #include "io/landmark_io.h"
 #include "io/mesh_io.h"
 #include "modeling/source_expression.h"
+#include "report/drawn_face.h"
 #include "report/figure_description.h"
 
 namespace mimik::report {
@@ -44,11 +44,6 @@ namespace {
 
 constexpr const char* description_file = "figure.json";
 constexpr int panel_width_px = 320, panel_height_px = 400;
-
-/// Middle of what is drawn of a neutral face: where all panels of that person look.
-Point centre_of(const geometry::QuadGrid& grid, geometry::BridgedVertices bridged) {
-    return geometry::box_of(geometry::to_mesh(grid, bridged).vertices_mm).center();
-}
 
 /// `name,x,y,z,kind` of the points of some kinds: muscle and wrinkle points as the thesis shows them (Figs 5-8, 5-9);
 /// those that lie on no muscle in files of their own. @return whether there was any.
@@ -141,13 +136,14 @@ private:
     FigureDescription description_;
 };
 
-/// What makes another picture of the same people by the same method, each in a word: "_r2logr_no-anchors_left_bridged".
+/// What makes another picture of the same people by the same method, each in a word:
+/// "_r2logr_no-anchors_left_holes-gap".
 std::string variant_suffix(const ComparisonRequest& request) {
     const auto method = animation::method_by_name(request.method_name);
     const auto* sparse = dynamic_cast<const animation::ModelMethod*>(method.get());
     auto suffix = modeling::variant_suffix(request.model, sparse ? sparse->model_options() : modeling::ModelOptions{});
     if (request.view != ComparisonRequest{}.view) suffix += "_" + request.view;
-    if (request.bridged == geometry::BridgedVertices::keep) suffix += "_bridged";
+    if (request.holes != ComparisonRequest{}.holes) suffix += fmt::format("_holes-{}", to_string(request.holes));
     return suffix;
 }
 
@@ -206,15 +202,17 @@ geometry::Landmarks without(const geometry::Landmarks& landmarks, const std::set
 void add_person(FigureFolder& folder, const ShownPerson& person, const geometry::Landmarks& landmarks,
                 const ComparisonRequest& request, double scale_mm, bool synthetic) {
     const auto stem = [&](const char* what) { return person.role + "_" + what; };
-    const Point centre_mm = centre_of(person.neutral.grid, request.bridged);
+    const Point centre_mm = middle_of(person.neutral);
 
     std::vector<std::uint32_t> kept, kept_animated;
-    Mesh neutral = geometry::to_mesh(person.neutral.grid, request.bridged, &kept);
-    Mesh animated = animation::to_mesh(person.animated, person.neutral, {.bridged = request.bridged}, &kept_animated);
+    Mesh neutral = drawn_surface(person.neutral.grid, request.holes, geometry::Transform::Identity(), &kept);
+    Mesh animated = drawn_animation(person.animated, person.neutral, request.holes, &kept_animated);
     if (person.scored) {
         neutral.attributes.push_back(distance_attribute(*person.scored, person.neutral.grid.vertices_mm, kept));
-        animated.attributes.push_back(
+        auto& distance = animated.attributes.emplace_back(
             distance_attribute(*person.scored, moved_vertices(person.neutral.grid, person.animated), kept_animated));
+        // The dark inside of a mouth, which follows the kept vertices, has no distance.
+        distance.values.resize(animated.vertices_mm.size(), std::numeric_limits<double>::quiet_NaN());
     }
     io::write_mesh(folder.file(stem("neutral.ply")), neutral);
     io::write_mesh(folder.file(stem("animated.ply")), animated);
@@ -229,9 +227,8 @@ void add_person(FigureFolder& folder, const ShownPerson& person, const geometry:
     folder.add_panel(stem("animated.ply"), "Animated " + who, centre_mm);
     if (!person.real) return;
 
-    auto real = person.real->grid;
-    for (auto& p : real.vertices_mm) p = person.real->neutral_from_scan * p;
-    io::write_mesh(folder.file(stem("real.ply")), geometry::to_mesh(real, request.bridged));
+    io::write_mesh(folder.file(stem("real.ply")),
+                   drawn_surface(person.real->grid, request.holes, person.real->neutral_from_scan));
     auto& third = folder.add_panel(
         stem("real.ply"), (synthetic ? "Synthetic scan of the " : "Real scan of the ") + person.role, centre_mm);
     folder.add_controls(third, person.real_controls, stem("real_controls"));
@@ -330,7 +327,7 @@ ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCa
     ComparisonFigure figure;
     const auto neutral = workspace.face(workspace.neutral(request.target));
     const PreparedTarget target(neutral);
-    const Point centre_mm = centre_of(neutral.grid, request.bridged);
+    const Point centre_mm = middle_of(neutral);
     FigureFolder out(folder, request);
     std::vector<std::string> words;
     for (const auto& expression : expressions) {
@@ -343,7 +340,7 @@ ComparisonFigure write_magnitude_series(const Workspace& workspace, const FacsCa
             const auto animated = animated_face(target, model, request, magnitude);
             add_remarks(figure.remarks, animated.remarks);
             const auto name = series_mesh(model.expression, magnitude);
-            io::write_mesh(out.file(name), animation::to_mesh(animated, neutral, {.bridged = request.bridged}));
+            io::write_mesh(out.file(name), drawn_animation(animated, neutral, request.holes));
             out.add_panel(name, fmt::format("{}, m = {:g}", model.expression.name(), magnitude), centre_mm);
         }
     }

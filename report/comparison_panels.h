@@ -21,7 +21,7 @@ struct ComparisonFigure {
 };
 
 /// File name without extension: "AU12_bs003_on_bs007_default"; a magnitude other than 1 as "AU12_m0.5_...";
-/// what differs from the method and from the front view as "..._r2logr_no-anchors_left_bridged". Another catalogue is
+/// what differs from the method and from the front view as "..._r2logr_no-anchors_left_holes-gap". Another catalogue is
 /// not told.
 [[nodiscard]] std::string comparison_name(const ComparisonRequest& request);
 /// "AU4_AU12_series_mean_on_bs007_default".

@@ -8,7 +8,7 @@
 #include "geometry/quad_grid.h"
 #include "preprocessing/face.h"
 #include "report/compared_people.h"
-#include "report/figure_cast.h"
+#include "report/hole_drawing.h"
 
 // Faces as named figures show them: meshes with the colours of skin, of filled holes and of an open mouth.
 

@@ -15,12 +15,6 @@ namespace mimik::report {
 
 using facs::Expression;
 
-HoleDrawing parse_hole_drawing(const std::string& name) {
-    for (const auto holes : {HoleDrawing::fill, HoleDrawing::gap, HoleDrawing::mark})
-        if (name == to_string(holes)) return holes;
-    throw InputError(fmt::format("holes is {}; give fill, gap or mark", base::in_quotes(name)));
-}
-
 void NamedFigureOptions::check() const {
     if (!std::isfinite(error_scale_mm) || error_scale_mm <= 0)
         throw InputError(fmt::format("error_scale_mm is {}; give more than 0", error_scale_mm));
