@@ -96,10 +96,6 @@ std::unique_ptr<const Learner> PooledMethod::learner(const LearningTask& task) c
     return std::make_unique<PooledLearner>(task, setting_.pool);
 }
 
-std::vector<Vector> mean_motion(std::span<const PooledSource> sources) {
-    return weighted_motion(sources, std::vector<double>(sources.size(), 1.0));
-}
-
 std::vector<Vector> symmetric_motion(const preprocessing::FaceTemplate& face_template,
                                      std::span<const Vector> motion_mm) {
     std::vector<Vector> symmetric(motion_mm.begin(), motion_mm.end());
@@ -108,24 +104,6 @@ std::vector<Vector> symmetric_motion(const preprocessing::FaceTemplate& face_tem
         symmetric[v] = (motion_mm[v] + Vector(-other.x(), other.y(), other.z())) / 2;
     }
     return symmetric;
-}
-
-std::vector<Vector> median_motion(std::span<const PooledSource> sources) {
-    constexpr int rounds = 20;           // a hundredth of a millimetre is reached in less than ten
-    constexpr double softness_mm = 0.2;  // below the noise of registration, all sources are equally good
-    auto median = mean_motion(sources);
-    for (std::size_t v = 0; v < median.size(); ++v)
-        for (int round = 0; round < rounds; ++round) {
-            Vector sum = Vector::Zero();
-            double weights = 0;
-            for (const auto& source : sources) {
-                const double off_mm = std::hypot((source.motion_mm[v] - median[v]).norm(), softness_mm);
-                sum += source.motion_mm[v] / off_mm;
-                weights += 1 / off_mm;
-            }
-            median[v] = sum / weights;
-        }
-    return median;
 }
 
 std::vector<Vector> near_motion(std::span<const PooledSource> sources, const PoolTask& task) {

@@ -45,15 +45,10 @@ private:
     Setting setting_;
 };
 
-/// Per vertex the mean.
-[[nodiscard]] std::vector<geometry::Vector> mean_motion(std::span<const PooledSource> sources);
 /// The mean of a motion and its mirror image: what is left of people's own asymmetry in a mean is noise.
 /// @param motion_mm  per vertex of the template
 [[nodiscard]] std::vector<geometry::Vector> symmetric_motion(const preprocessing::FaceTemplate& face_template,
                                                              std::span<const geometry::Vector> motion_mm);
-/// Per vertex the point with the least sum of distances to the sources' motions (Weiszfeld 1937): one source that is
-/// far off does not pull it.
-[[nodiscard]] std::vector<geometry::Vector> median_motion(std::span<const PooledSource> sources);
 /// The mean, in which a source weighs exp(-d^2 / 2 h^2): d is the rms distance of its neutral face to the target's, h
 /// the median of those distances.
 [[nodiscard]] std::vector<geometry::Vector> near_motion(std::span<const PooledSource> sources, const PoolTask& task);

@@ -2,13 +2,14 @@
 
 namespace mimik::animation::methods {
 
-/// Who is built alike may move alike.
+/// Who is built alike may move alike; what is left of people's own asymmetry in a mean is noise.
 MethodPointer mean_near_method() {
     return std::make_shared<PooledMethod>(
         PooledMethod::Setting{.name = "mean-near",
-                              .summary = "The mean, in which people with a face like the target's weigh more",
+                              .summary = "The mean, in which faces like the target's weigh more, alike on both sides",
                               .pool = [](std::span<const PooledSource> sources, const PoolTask& task) {
-                                  return near_motion(sources, task);
+                                  const auto motion = near_motion(sources, task);
+                                  return task.both_sides ? symmetric_motion(task.face_template, motion) : motion;
                               }});
 }
 
