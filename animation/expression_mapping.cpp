@@ -186,60 +186,73 @@ modeling::SourceExamples fitted_examples(const modeling::SourceExamples& table, 
     return fitted;
 }
 
+PerformanceMapper::PerformanceMapper(const capture::FeatureMotion& motion, PerformerRest rest,
+                                     const ExpressionMapping& mapping)
+    : mapping_(mapping),
+      rest_(std::move(rest)),
+      last_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mapping.source().examples.size()))) {
+    for (const auto& feature : mapping_.source().features) {
+        const auto k = place_in(motion, rest_, feature);
+        if (!k) throw InputError(fmt::format("the motion has no {} at rest; leave it out of the examples", feature));
+        place_.push_back(*k);
+    }
+    displacement_mm_.resize(place_.size());
+    valid_.resize(place_.size());
+}
+
+PerformanceMapper::Frame PerformanceMapper::next(const capture::FeatureFrame& seen) {
+    const auto& options = mapping_.options();
+    std::size_t seen_features = 0;
+    for (std::size_t k = 0; k < place_.size(); ++k) {
+        const auto& sample = seen.features[place_[k]];
+        valid_[k] = sample.valid ? 1 : 0;
+        seen_features += valid_[k];
+        displacement_mm_[k] = sample.valid ? Vector(sample.head_mm - rest_.position_mm[place_[k]]) : Vector::Zero();
+    }
+    Frame frame;
+    frame.tracked = seen.state == capture::TrackState::tracked &&
+                    static_cast<double>(seen_features) >= options.least_features * static_cast<double>(place_.size());
+    if (!frame.tracked) {
+        const double since_s = seen.time_s - last_time_s_ - options.hold_s;
+        frame.weights = last_ * (since_s <= 0 ? 1.0 : std::exp(-since_s / options.relax_s));
+        return frame;
+    }
+    const auto expression = mapping_.map(displacement_mm_, valid_);
+    frame.unexplained_rms_mm = expression.unexplained_rms_mm;
+    frame.least = expression.weights.minCoeff();
+    frame.largest = expression.weights.maxCoeff();
+    last_ = expression.weights;
+    if (options.clamp) last_ = last_.cwiseMax(0.0).cwiseMin(1.0);
+    last_ *= options.gain;
+    last_time_s_ = seen.time_s;
+    frame.weights = last_;
+    return frame;
+}
+
 MappedPerformance map_performance(const capture::FeatureMotion& motion, const PerformerRest& rest,
                                   const ExpressionMapping& mapping) {
-    const auto& source = mapping.source();
-    const auto& options = mapping.options();
-    std::vector<std::size_t> place;
-    for (const auto& feature : source.features) {
-        const auto k = place_in(motion, rest, feature);
-        if (!k) throw InputError(fmt::format("the motion has no {} at rest; leave it out of the examples", feature));
-        place.push_back(*k);
-    }
+    PerformanceMapper mapper(motion, rest, mapping);
     MappedPerformance mapped;
-    mapped.examples = source.examples;
+    mapped.examples = mapping.source().examples;
     mapped.rate_hz = motion.rate_hz;
-    const auto count = static_cast<Eigen::Index>(source.examples.size());
-    mapped.weights = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(motion.frames.size()), count);
-    std::vector<Vector> displacement_mm(place.size());
-    std::vector<std::uint8_t> valid(place.size());
+    mapped.weights = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(motion.frames.size()),
+                                           static_cast<Eigen::Index>(mapped.examples.size()));
     std::vector<double> unexplained_mm;
-    Eigen::VectorXd last = Eigen::VectorXd::Zero(count);
-    double last_time_s = 0;
-    for (std::size_t frame = 0; frame < motion.frames.size(); ++frame) {
-        const auto& seen = motion.frames[frame];
-        std::size_t seen_features = 0;
-        for (std::size_t k = 0; k < place.size(); ++k) {
-            const auto& sample = seen.features[place[k]];
-            valid[k] = sample.valid ? 1 : 0;
-            seen_features += valid[k];
-            displacement_mm[k] = sample.valid ? Vector(sample.head_mm - rest.position_mm[place[k]]) : Vector::Zero();
-        }
-        const bool tracked =
-            seen.state == capture::TrackState::tracked &&
-            static_cast<double>(seen_features) >= options.least_features * static_cast<double>(place.size());
-        auto row = mapped.weights.row(static_cast<Eigen::Index>(frame));
-        mapped.times_s.push_back(seen.time_s);
-        mapped.tracked.push_back(tracked ? 1 : 0);
-        if (!tracked) {
+    for (std::size_t k = 0; k < motion.frames.size(); ++k) {
+        const auto frame = mapper.next(motion.frames[k]);
+        mapped.times_s.push_back(motion.frames[k].time_s);
+        mapped.tracked.push_back(frame.tracked ? 1 : 0);
+        mapped.weights.row(static_cast<Eigen::Index>(k)) = frame.weights.transpose();
+        if (!frame.tracked) {
             ++mapped.lost;
-            const double since_s = seen.time_s - last_time_s - options.hold_s;
-            row = last.transpose() * (since_s <= 0 ? 1.0 : std::exp(-since_s / options.relax_s));
             continue;
         }
-        const auto expression = mapping.map(displacement_mm, valid);
-        unexplained_mm.push_back(expression.unexplained_rms_mm);
-        const double least = expression.weights.minCoeff(), largest = expression.weights.maxCoeff();
-        mapped.least_weight = std::min(mapped.least_weight, least);
-        mapped.largest_weight = std::max(mapped.largest_weight, largest);
+        unexplained_mm.push_back(frame.unexplained_rms_mm);
+        mapped.least_weight = std::min(mapped.least_weight, frame.least);
+        mapped.largest_weight = std::max(mapped.largest_weight, frame.largest);
         constexpr double much = 0.05;  // what nobody sees is not counted
-        mapped.negatives += least < -much ? 1 : 0;
-        mapped.overshoots += largest > 1 + much ? 1 : 0;
-        last = expression.weights;
-        if (options.clamp) last = last.cwiseMax(0.0).cwiseMin(1.0);
-        last *= options.gain;
-        last_time_s = seen.time_s;
-        row = last.transpose();
+        mapped.negatives += frame.least < -much ? 1 : 0;
+        mapped.overshoots += frame.largest > 1 + much ? 1 : 0;
     }
     if (!unexplained_mm.empty()) mapped.median_unexplained_mm = base::median(std::move(unexplained_mm));
     return mapped;

@@ -97,6 +97,34 @@ struct KeyFrame {
                                                        const capture::FeatureMotion& motion, const PerformerRest& rest,
                                                        double* factor = nullptr);
 
+/// Weights frame by frame, as they go to the face: of a performer who is seen while it goes on.
+class PerformanceMapper {
+public:
+    /// @param motion   names its features; its frames are not read
+    /// @param rest     of that motion
+    /// @param mapping  is kept by reference
+    /// @throws InputError if a feature of the mapping is not in the motion.
+    PerformanceMapper(const capture::FeatureMotion& motion, PerformerRest rest, const ExpressionMapping& mapping);
+
+    struct Frame {
+        Eigen::VectorXd weights;  ///< clamped if asked for, with the gain; held, or falling to 0, if not tracked
+        bool tracked = false;
+        double least = 0.0, largest = 0.0;  ///< weights as they were mapped; of a tracked frame
+        double unexplained_rms_mm = 0.0;    ///< likewise
+    };
+    /// Frame after frame; a time is never before the last one.
+    [[nodiscard]] Frame next(const capture::FeatureFrame& seen);
+
+private:
+    const ExpressionMapping& mapping_;
+    PerformerRest rest_;
+    std::vector<std::size_t> place_;  ///< of the mapping's features in the motion
+    std::vector<geometry::Vector> displacement_mm_;
+    std::vector<std::uint8_t> valid_;
+    Eigen::VectorXd last_;
+    double last_time_s_ = 0.0;
+};
+
 /// Weights over time, and what is to be said of them.
 struct MappedPerformance {
     std::vector<std::string> examples;

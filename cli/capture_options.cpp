@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,21 +11,69 @@
 
 namespace mimik::cli {
 
+void add_tracking_options(CLI::App& command, TrackingArguments& arguments) {
+    command.add_option("--interocular-mm", arguments.interocular_mm,
+                       "Distance of the performer's outer eye corners; else that of the mean face, 87.3");
+    command.add_option("--neutral", arguments.neutral, "Frames A:B, B among them, in which the face is at rest")
+        ->capture_default_str();
+    command
+        .add_option("--face", arguments.face,
+                    "Which of several faces: N, the N-th largest (1: the largest), or X,Y, the face at that pixel")
+        ->capture_default_str();
+    command.add_option("--tracker", arguments.tracker, "What follows the face: paper, dlib, or onnx with --model")
+        ->capture_default_str();
+    command.add_option("--model", arguments.model, "Net of the 68 points, .onnx (docs/algorithms/video_capture.md)");
+    command.add_option("--colours", arguments.colours, "Colour network of the performer (mimik-video train)");
+    command.add_flag("--smooth", arguments.smooth, "One-euro filter; what is still lags by 80 ms, what moves by less");
+}
+
 void add_capture_options(CLI::App& command, CaptureArguments& arguments) {
     command.add_option("VIDEO", arguments.source, "Video file, or a camera: its number or /dev/videoN")->required();
     command.add_option("-o,--output", arguments.output, "Feature motion, .csv (docs/formats.md)")->required();
     command.add_option("--landmarks68", arguments.landmarks68, "The 68 usual points too, .csv, in pixels");
     command.add_option("--sheet", arguments.sheet, "Close-ups with the curves drawn on, .png");
     command.add_option("--video", arguments.video, "The frames with the curves drawn on, .mp4");
-    command.add_option("--interocular-mm", arguments.interocular_mm,
-                       "Distance of the performer's outer eye corners; else that of the mean face, 87.3");
-    command.add_option("--neutral", arguments.neutral, "Frames A:B, B among them, in which the face is at rest")
-        ->capture_default_str();
-    command.add_option("--tracker", arguments.tracker, "What follows the face: paper or dlib")->capture_default_str();
-    command.add_option("--colours", arguments.colours, "Colour network of the performer (mimik-video train)");
-    command.add_flag("--smooth", arguments.smooth, "One-euro filter; what is still lags by 80 ms, what moves by less");
+    add_tracking_options(command, arguments.tracking);
     command.add_option("--frames", arguments.frames, "Stops after so many; 0: at the end")->capture_default_str();
     add_common_options(command, arguments.common);
+}
+
+void add_live_options(CLI::App& command, LiveArguments& arguments) {
+    command.add_option("VIDEO", arguments.source, "Camera: its number or /dev/videoN; or a video file in its place")
+        ->required();
+    command
+        .add_option("--examples", arguments.examples,
+                    "Folder of 'mimik examples', or your own with examples.toml: the face that is moved")
+        ->required();
+    command.add_option("-o,--output", arguments.output, "Performer and face, .mp4, in the place of a window");
+    add_tracking_options(command, arguments.tracking);
+    command.add_option("--source-examples", arguments.source_examples,
+                       "Table of what features do in the examples (features.csv of 'mimik examples')");
+    command.add_option("--gain", arguments.gain, "Below 1 attenuates, above exaggerates")->capture_default_str();
+    command.add_flag("--clamp", arguments.clamp, "Keep weights between 0 and 1, before the gain");
+    command.add_option("--frames", arguments.frames, "Stops after so many; 0: at the end, or at the key q")
+        ->capture_default_str();
+    add_common_options(command, arguments.common);
+}
+
+FaceChoice face_choice(const std::string& text) {
+    const auto fail = [&](const char* why) -> void {
+        throw InputError(fmt::format(
+            "--face is '{}'; {}: N of 1 (the largest) to 100, or X,Y in pixels of the frame, such as 320,240", text,
+            why));
+    };
+    FaceChoice choice;
+    const auto comma = text.find(',');
+    if (comma == std::string::npos) {
+        const auto rank = base::parse_integer(text).value_or(0);
+        if (rank < 1 || rank > 100) fail("give the number of a face or a pixel");
+        choice.rank = static_cast<int>(rank);
+        return choice;
+    }
+    const auto x = base::parse_double(text.substr(0, comma)), y = base::parse_double(text.substr(comma + 1));
+    if (!x || !y || !(*x >= 0 && *y >= 0 && *x < 1e5 && *y < 1e5)) fail("a pixel has two numbers of 0 or more");
+    choice.pixel = {*x, *y};
+    return choice;
 }
 
 std::array<int, 2> neutral_frames(const std::string& text) {
@@ -39,6 +88,11 @@ std::array<int, 2> neutral_frames(const std::string& text) {
 
 namespace {
 
+void check_ending(const char* option, const std::string& file, const char* extension) {
+    if (file.empty() || base::equal_ignoring_case(std::filesystem::path(file).extension().string(), extension)) return;
+    throw InputError(fmt::format("{} is '{}'; it is written as {}", option, file, extension));
+}
+
 bool are_one_file(const std::string& a, const std::string& b) {
     std::error_code none;
     if (std::filesystem::equivalent(a, b, none)) return true;
@@ -46,19 +100,13 @@ bool are_one_file(const std::string& a, const std::string& b) {
     return a == b || (!from.empty() && from == to);
 }
 
-/// Nothing is written over what is read, nor over what else is written.
-void check_files_differ(const CaptureArguments& arguments) {
-    struct Named {
-        const char* option;
-        const std::string& file;
-    };
-    const std::array<Named, 6> files = {{{"VIDEO", arguments.source},
-                                         {"--colours", arguments.colours},
-                                         {"--output", arguments.output},
-                                         {"--landmarks68", arguments.landmarks68},
-                                         {"--sheet", arguments.sheet},
-                                         {"--video", arguments.video}}};
-    for (std::size_t k = 2; k < files.size(); ++k)
+struct NamedFile {
+    const char* option;
+    const std::string& file;
+};
+/// Nothing is written over what is read, nor over what else is written. @param read  how many stand first
+void check_files_differ(const std::vector<NamedFile>& files, std::size_t read) {
+    for (std::size_t k = read; k < files.size(); ++k)
         for (std::size_t other = 0; other < k; ++other)
             if (!files[k].file.empty() && !files[other].file.empty() && are_one_file(files[k].file, files[other].file))
                 throw InputError(fmt::format("{} is '{}', the same file as {}; give it another name", files[k].option,
@@ -67,19 +115,41 @@ void check_files_differ(const CaptureArguments& arguments) {
 
 }  // namespace
 
-void check_capture_options(const CaptureArguments& arguments) {
-    const auto ends_with = [](const char* option, const std::string& file, const char* extension) {
-        if (file.empty() || base::equal_ignoring_case(std::filesystem::path(file).extension().string(), extension))
-            return;
-        throw InputError(fmt::format("{} is '{}'; it is written as {}", option, file, extension));
-    };
-    if (arguments.output.empty()) throw InputError("--output is empty; name a .csv file");
-    ends_with("--output", arguments.output, ".csv");
-    ends_with("--landmarks68", arguments.landmarks68, ".csv");
-    ends_with("--sheet", arguments.sheet, ".png");
-    ends_with("--video", arguments.video, ".mp4");
-    check_files_differ(arguments);
+void check_tracking_options(const TrackingArguments& arguments) {
     (void)neutral_frames(arguments.neutral);
+    (void)face_choice(arguments.face);
+    const bool onnx = arguments.tracker == "onnx";
+    if (!onnx && arguments.tracker != "paper" && arguments.tracker != "dlib")
+        throw InputError(fmt::format("--tracker is '{}'; there are paper, dlib and onnx", arguments.tracker));
+    if (onnx && arguments.model.empty())
+        throw InputError("--tracker onnx: --model is missing; name the .onnx file of a net of the 68 points");
+    if (!onnx && !arguments.model.empty())
+        throw InputError(fmt::format("--model is '{}'; it goes with --tracker onnx", arguments.model));
+    if (arguments.tracker != "paper" && !arguments.colours.empty())
+        throw InputError(fmt::format("--colours is '{}'; it goes with --tracker paper", arguments.colours));
+}
+
+void check_capture_options(const CaptureArguments& arguments) {
+    if (arguments.output.empty()) throw InputError("--output is empty; name a .csv file");
+    check_ending("--output", arguments.output, ".csv");
+    check_ending("--landmarks68", arguments.landmarks68, ".csv");
+    check_ending("--sheet", arguments.sheet, ".png");
+    check_ending("--video", arguments.video, ".mp4");
+    check_files_differ({{"VIDEO", arguments.source},
+                        {"--colours", arguments.tracking.colours},
+                        {"--model", arguments.tracking.model},
+                        {"--output", arguments.output},
+                        {"--landmarks68", arguments.landmarks68},
+                        {"--sheet", arguments.sheet},
+                        {"--video", arguments.video}},
+                       3);
+    check_tracking_options(arguments.tracking);
+}
+
+void check_live_options(const LiveArguments& arguments) {
+    check_ending("--output", arguments.output, ".mp4");
+    check_files_differ({{"VIDEO", arguments.source}, {"--output", arguments.output}}, 1);
+    check_tracking_options(arguments.tracking);
 }
 
 }  // namespace mimik::cli

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
     mimik::cli::add_capture_command(app, exit_code);
     mimik::cli::add_examples_command(app, exit_code);
     mimik::cli::add_perform_command(app, exit_code);
+    mimik::cli::add_live_command(app, exit_code);
     mimik::cli::add_regions_command(app, exit_code);
     mimik::cli::add_catalogue_command(app, exit_code);
     mimik::cli::add_version_command(app, exit_code);

@@ -26,6 +26,7 @@
 #include "cli/notes.h"
 #include "cli/performance_commands.h"
 #include "cli/performance_output.h"
+#include "cli/performer_examples.h"
 #include "database/hidden_subjects.h"
 #include "io/json_values.h"
 
@@ -35,6 +36,8 @@ namespace {
 struct Arguments {
     Common common;
     std::filesystem::path motion, examples, output, source_examples, weights;
+    std::vector<std::filesystem::path> beside;
+    std::filesystem::path clip;
     std::vector<std::string> keys;
     std::string rest;
     std::optional<double> rate_hz;
@@ -126,7 +129,7 @@ std::vector<animation::KeyFrame> key_frames(const std::vector<std::string>& type
 /// What the performer does in the examples that the character has.
 modeling::SourceExamples source_of(const Arguments& arguments, const capture::FeatureMotion& motion,
                                    const animation::PerformerRest& rest, const animation::FacialExamples& character,
-                                   std::vector<std::string>& remarks) {
+                                   const std::filesystem::path& folder, std::vector<std::string>& remarks) {
     modeling::SourceExamples source;
     if (!arguments.keys.empty()) {
         source = animation::performer_examples(motion, rest, key_frames(arguments.keys));
@@ -140,37 +143,7 @@ modeling::SourceExamples source_of(const Arguments& arguments, const capture::Fe
                                       arguments.source_examples.empty() ? std::string("the built-in examples")
                                                                         : arguments.source_examples.string()));
     }
-    std::vector<std::string> shared, missing;
-    for (const auto& name : source.examples) {
-        const bool there = std::any_of(character.examples.begin(), character.examples.end(),
-                                       [&](const animation::FacialExample& example) { return example.name == name; });
-        (there ? shared : missing).push_back(name);
-    }
-    if (shared.empty())
-        throw InputError(fmt::format("{}: has none of the examples {}; name its own with --key or --source-examples",
-                                     arguments.examples.string(), fmt::join(missing, ", ")));
-    if (!missing.empty())
-        remarks.push_back(fmt::format("{}: has no example {}, so the performer's is left out",
-                                      arguments.examples.string(), fmt::join(missing, ", ")));
-    return modeling::with_examples(source, shared);
-}
-
-/// The columns of the character's examples; one without a column stays 0, with a remark.
-Eigen::MatrixXd columns_of(const animation::FacialExamples& character, const animation::MappedPerformance& mapped,
-                           std::vector<std::string>& remarks) {
-    Eigen::MatrixXd weights =
-        Eigen::MatrixXd::Zero(mapped.weights.rows(), static_cast<Eigen::Index>(character.examples.size()));
-    std::vector<std::string> still;
-    for (std::size_t k = 0; k < character.examples.size(); ++k) {
-        const auto& name = character.examples[k].name;
-        const auto it = std::find(mapped.examples.begin(), mapped.examples.end(), name);
-        if (it == mapped.examples.end())
-            still.push_back(name);
-        else
-            weights.col(static_cast<Eigen::Index>(k)) = mapped.weights.col(it - mapped.examples.begin());
-    }
-    if (!still.empty()) remarks.push_back(fmt::format("nothing drives {}", fmt::join(still, ", ")));
-    return weights;
+    return examples_of_character(source, character, folder, remarks);
 }
 
 struct Outcome {
@@ -180,10 +153,10 @@ struct Outcome {
 };
 
 Outcome map_features(const Arguments& arguments, const capture::FeatureMotion& motion,
-                     const animation::FacialExamples& character) {
+                     const animation::FacialExamples& character, const std::filesystem::path& folder) {
     Outcome outcome;
     const auto rest = naming(arguments.motion, [&] { return rest_of(arguments, motion); });
-    const animation::ExpressionMapping mapping(source_of(arguments, motion, rest, character, outcome.remarks),
+    const animation::ExpressionMapping mapping(source_of(arguments, motion, rest, character, folder, outcome.remarks),
                                                arguments.options);
     outcome.mapped = animation::map_performance(motion, rest, mapping);
     const auto& parameters = mapping.parameters();
@@ -236,51 +209,91 @@ void report(const Arguments& arguments, const MotionTable& table, Outcome& outco
                              base::counted(mapped.examples.size(), "example"));
 }
 
-int run(const Arguments& arguments) {
+void check(const Arguments& arguments) {
     check_by_option(
         {{"gain", "--gain"}, {"least_eigenvalue_share", "--least-eigenvalue-share"}, {"ridge_share", "--ridge"}},
         [&] { arguments.options.check(); });
     if (!arguments.keys.empty() && !arguments.source_examples.empty())
         throw InputError("--key: --source-examples says what the performer does, too; give one of them");
+    const bool is_video = base::lower_case(arguments.output.extension().string()) == ".mp4";
+    if (!is_video && !arguments.clip.empty())
+        throw InputError(
+            fmt::format("--video {}: the performer stands beside the face in an .mp4 alone", arguments.clip.string()));
+    if (!is_video && !arguments.beside.empty())
+        throw InputError(
+            fmt::format("--beside {}: several faces stand in an .mp4 alone", arguments.beside.front().string()));
+    std::error_code none;
+    if (!arguments.clip.empty() && std::filesystem::equivalent(arguments.clip, arguments.output, none))
+        throw InputError(
+            fmt::format("--output is '{}', the same file as --video; give it another name", arguments.output.string()));
     check_performance_output(arguments.output);
     for (const auto& file : {arguments.motion, arguments.source_examples})
         if (!file.empty()) database::refuse_hidden_file(file);
+}
+
+/// One character, and what the table makes it do.
+struct Act {
     Performance performance;
-    const auto neutral_file = arguments.examples / "neutral.ply";
-    if (std::filesystem::exists(neutral_file)) database::refuse_hidden_file(neutral_file);
-    performance.character = animation::read_facial_examples(arguments.examples);
-    auto table = read_motion(arguments);
+    std::optional<animation::WireExamples> wires;
     Outcome outcome;
-    if (table.shapes) {
-        outcome.mapped = animation::map_shapes(*table.shapes, performance.character, arguments.options);
-    } else {
-        outcome = map_features(arguments, *table.features, performance.character);
-    }
-    outcome.remarks.insert(outcome.remarks.begin(), table.remarks.begin(), table.remarks.end());
-    say_overshoot(arguments, outcome);
-    performance.weights = columns_of(performance.character, outcome.mapped, outcome.remarks);
-    performance.times_s = outcome.mapped.times_s;
-    performance.rate_hz = outcome.mapped.rate_hz;
+};
+
+void take_wires(Act& act) {
+    const auto& wires = act.wires.emplace(animation::extract_wires(act.performance.character));
+    act.outcome.remarks.push_back(
+        fmt::format("{} in the place of {}: they are {:.2f} mm rms off the examples, where "
+                    "these move by {:.2f} mm rms",
+                    base::counted(wires.wires().size(), "wire"), base::counted(wires.vertices(), "vertex", "vertices"),
+                    wires.error().rms_mm, wires.error().motion_rms_mm));
+    act.outcome.details["wire_error_rms_mm"] = wires.error().rms_mm;
+    act.outcome.details["motion_rms_mm"] = wires.error().motion_rms_mm;
+}
+
+Act act_of(const Arguments& arguments, const MotionTable& table, const std::filesystem::path& folder) {
+    Act act;
+    auto& performance = act.performance;
+    const auto neutral_file = folder / "neutral.ply";
+    if (std::filesystem::exists(neutral_file)) database::refuse_hidden_file(neutral_file);
+    performance.character = animation::read_facial_examples(folder);
+    if (table.shapes)
+        act.outcome.mapped = animation::map_shapes(*table.shapes, performance.character, arguments.options);
+    else
+        act.outcome = map_features(arguments, *table.features, performance.character, folder);
+    act.outcome.remarks.insert(act.outcome.remarks.begin(), table.remarks.begin(), table.remarks.end());
+    say_overshoot(arguments, act.outcome);
+    const auto& mapped = act.outcome.mapped;
+    performance.weights = columns_of(performance.character, mapped.examples, mapped.weights, act.outcome.remarks);
+    performance.times_s = mapped.times_s;
+    performance.rate_hz = mapped.rate_hz;
     performance.picture_size = arguments.picture_size;
     performance.made_by = {{"made_by", fmt::format("Mimik {} perform", base::version())},
                            {"motion", arguments.motion.filename().string()}};
     for (auto& said : database::said_in_files(database::origin_to_carry(std::vector{neutral_file})))
         performance.made_by.push_back(std::move(said));
-    std::optional<animation::WireExamples> wires;
-    if (arguments.wires) {
-        wires.emplace(animation::extract_wires(performance.character));
-        performance.wires = &*wires;
-        outcome.remarks.push_back(fmt::format(
-            "{} in the place of {}: they are {:.2f} mm rms off the examples, where "
-            "these move by {:.2f} mm rms",
-            base::counted(wires->wires().size(), "wire"), base::counted(wires->vertices(), "vertex", "vertices"),
-            wires->error().rms_mm, wires->error().motion_rms_mm));
-        outcome.details["wire_error_rms_mm"] = wires->error().rms_mm;
-        outcome.details["motion_rms_mm"] = wires->error().motion_rms_mm;
+    if (arguments.wires) take_wires(act);
+    return act;
+}
+
+int run(const Arguments& arguments) {
+    check(arguments);
+    auto table = read_motion(arguments);
+    if (!arguments.clip.empty() && !table.features)
+        throw InputError(fmt::format("--video {}: {} says weights and no pixels; nothing can be drawn on the video",
+                                     arguments.clip.string(), arguments.motion.string()));
+    std::vector<std::filesystem::path> folders = {arguments.examples};
+    folders.insert(folders.end(), arguments.beside.begin(), arguments.beside.end());
+    std::vector<Act> acts;
+    for (const auto& folder : folders) acts.push_back(act_of(arguments, table, folder));
+    auto& outcome = acts.front().outcome;
+    std::vector<Performance> performances;
+    for (auto& act : acts) {
+        performances.push_back(std::move(act.performance));
+        performances.back().wires = act.wires ? &*act.wires : nullptr;
     }
     if (!arguments.weights.empty())
         base::write_atomically(arguments.weights, animation::encode_weights(outcome.mapped));
-    for (auto& remark : write_performance(arguments.output, performance, arguments.common))
+    const PerformerVideo performer{arguments.clip, table.features ? &*table.features : nullptr};
+    for (auto& remark : write_performance(arguments.output, performances, performer, arguments.common))
         outcome.remarks.push_back(std::move(remark));
     report(arguments, table, outcome);
     return exit_done;
@@ -297,6 +310,11 @@ void add_perform_command(CLI::App& app, int& exit_code) {
         ->required();
     command->add_option("--examples", arguments->examples, "Folder of 'mimik examples', or your own with examples.toml")
         ->required();
+    command->add_option("--beside", arguments->beside, "Further folders, whose faces stand beside in an .mp4; repeat")
+        ->allow_extra_args(false);
+    command->add_option(
+        "--video", arguments->clip,
+        "Video that the motion was captured from: it stands before the faces in an .mp4, curves drawn on");
     command->add_option("-o,--output", arguments->output, ".glb, .mp4, or a folder for pictures")->required();
     command->add_option("--key", arguments->keys,
                         "EXAMPLE=FRAME of the motion that shows it, such as smile=120; repeat");

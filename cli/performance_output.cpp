@@ -95,17 +95,32 @@ void check_performance_output(const std::filesystem::path& output) {
     if (!folder.empty()) base::check_takes_files(folder);
 }
 
-std::vector<std::string> write_performance(const std::filesystem::path& output, const Performance& performance,
-                                           const Common& common) {
-    if (kind_of(output) == ".glb") return write_moving_glb(output, performance);
+std::vector<std::string> write_performance(const std::filesystem::path& output,
+                                           const std::vector<Performance>& performances,
+                                           const PerformerVideo& performer, const Common& common) {
+    const auto& first = performances.front();
+    if (kind_of(output) == ".glb") return write_moving_glb(output, first);
     if (kind_of(output) != ".mp4") {
-        write_pictures(output, performance, common);
+        write_pictures(output, first, common);
         return {};
     }
-    (void)find_video_program();  // before the work
+    const auto program = find_video_program();  // before the work
     const base::TemporaryFolder folder(output.parent_path());
-    write_pictures(folder.path(), performance, common);
-    const auto fault = write_video(folder.path(), output, performance.rate_hz);
+    std::vector<std::string> words = {"mimik-video",   "write", (folder.path() / "0").string(),
+                                      output.string(), "--fps", fmt::format("{:g}", first.rate_hz),
+                                      "--quiet"};
+    for (std::size_t k = 0; k < performances.size(); ++k) {
+        const auto pictures = folder.path() / std::to_string(k);
+        std::filesystem::create_directory(pictures);
+        write_pictures(pictures, performances[k], common);
+        if (k > 0) words.insert(words.end(), {"--beside", pictures.string()});
+    }
+    if (!performer.clip.empty()) {
+        const auto table = folder.path() / "motion.csv";
+        capture::write_feature_motion(table, *performer.motion);
+        words.insert(words.end(), {"--performer", performer.clip.string(), "--motion", table.string()});
+    }
+    const auto fault = run_program(program, std::move(words));
     if (!fault.empty()) throw InputError(fmt::format("{}: not written: {}", output.string(), fault));
     return {};
 }

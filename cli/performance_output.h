@@ -7,6 +7,7 @@
 #include "animation/expression_mapping.h"
 #include "animation/facial_examples.h"
 #include "animation/wires.h"
+#include "capture/feature_motion.h"
 #include "cli/command.h"
 #include "io/mesh_io.h"
 
@@ -29,9 +30,17 @@ struct Performance {
 /// where nobody can write one.
 void check_performance_output(const std::filesystem::path& output);
 
+/// The performer in the video: the clip (empty: not in it) and the motion that was captured from it.
+struct PerformerVideo {
+    std::filesystem::path clip;
+    const capture::FeatureMotion* motion = nullptr;
+};
+
 /// .glb (morph targets whose weights move), .mp4 (by mimik-video) or a folder of pictures frame_000000.png, ...
+/// @param performances  at least one; what is no video shows the first alone
 /// @return remarks
 [[nodiscard]] std::vector<std::string> write_performance(const std::filesystem::path& output,
-                                                         const Performance& performance, const Common& common);
+                                                         const std::vector<Performance>& performances,
+                                                         const PerformerVideo& performer, const Common& common);
 
 }  // namespace mimik::cli

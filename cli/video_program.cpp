@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,15 +15,17 @@
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "capture/feature_motion.h"
 #include "cli/capture_options.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
+#include "cli/live_loop.h"
 #include "cli/notes.h"
 #include "cli/terminal.h"
+#include "cli/tracker_choice.h"
 #include "io/json_values.h"
 #include "video/colour_network.h"
-#include "video/dlib_tracker.h"
-#include "video/paper_tracker.h"
+#include "video/curve_picture.h"
 #include "video/rendered_performance.h"
 #include "video/track_video.h"
 #include "video/video_file.h"
@@ -33,26 +35,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::unique_ptr<video::FeatureTracker> tracker_of(const CaptureArguments& arguments) {
-    if (arguments.tracker == "dlib") return video::make_dlib_tracker();
-    if (arguments.tracker != "paper")
-        throw InputError(fmt::format("--tracker is '{}'; there are paper and dlib", arguments.tracker));
-    auto network =
-        arguments.colours.empty() ? video::ColourNetwork::shipped() : video::ColourNetwork::load(arguments.colours);
-    return video::make_paper_tracker(std::make_shared<const video::ColourNetwork>(std::move(network)));
-}
-
 void track(const CaptureArguments& arguments) {
     check_capture_options(arguments);
-    video::TrackVideoOptions options;
-    const auto neutral = neutral_frames(arguments.neutral);
-    options.neutral_from = neutral[0];
-    options.neutral_to = neutral[1];
-    options.smooth = arguments.smooth;
-    options.most_frames = arguments.frames;
-    options.camera.outer_eyes_mm = arguments.interocular_mm;
-    check_by_option({{"outer_eyes_mm", "--interocular-mm"}, {"most_frames", "--frames"}}, [&] { options.check(); });
-    const auto tracker = tracker_of(arguments);
+    const auto options = track_options(arguments.tracking, arguments.frames);
+    const auto tracker = make_tracker(arguments.tracking);
     const auto report =
         video::track_video(arguments.source, *tracker,
                            {arguments.output, arguments.landmarks68, arguments.sheet, arguments.video}, options);
@@ -74,17 +60,76 @@ void track(const CaptureArguments& arguments) {
                                  report.frames_a_second());
 }
 
-void write_video(const std::string& folder, const std::string& output, double rate_hz, bool quiet) {
+struct WriteArguments {
+    std::string folder, output, performer, motion;
+    std::vector<std::string> beside;
+    double rate_hz = 30;
+    bool quiet = false;
+};
+
+std::vector<fs::path> pictures_in(const std::string& folder) {
     if (!fs::is_directory(folder)) throw InputError(fmt::format("{}: is no folder of PNG files", folder));
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder))
         if (base::equal_ignoring_case(entry.path().extension().string(), ".png")) files.push_back(entry.path());
     if (files.empty()) throw InputError(fmt::format("{}: holds no PNG file", folder));
     std::sort(files.begin(), files.end());
-    video::VideoWriter writer(output, rate_hz);
-    for (const auto& file : files) writer.add(io::read_png(file));
+    return files;
+}
+
+/// A performer's video, frame after frame, with the curves that its table of motion has.
+class PerformerFrames {
+public:
+    PerformerFrames(const std::string& clip, const std::string& motion) : clip_(clip), reader_(clip) {
+        if (!motion.empty()) motion_ = capture::read_feature_motion(motion);
+    }
+    /// @throws InputError if the video has ended
+    const io::Image& next() {
+        if (!reader_.next(frame_))
+            throw InputError(
+                fmt::format("{}: ends at frame {}, before the performance; is it the video that the motion "
+                            "was captured from?",
+                            clip_, given_));
+        if (motion_ && given_ < motion_->frames.size()) video::draw_motion(frame_, *motion_, given_);
+        ++given_;
+        return frame_;
+    }
+
+private:
+    std::string clip_;
+    video::VideoReader reader_;
+    std::optional<capture::FeatureMotion> motion_;
+    io::Image frame_;
+    std::size_t given_ = 0;
+};
+
+void write_video(const WriteArguments& arguments) {
+    const auto files = pictures_in(arguments.folder);
+    std::vector<std::vector<fs::path>> beside;
+    for (const auto& folder : arguments.beside) {
+        beside.push_back(pictures_in(folder));
+        if (beside.back().size() != files.size())
+            throw InputError(fmt::format("{}: holds {} PNG files, {} {}; give as many", folder, beside.back().size(),
+                                         arguments.folder, files.size()));
+    }
+    if (arguments.performer.empty() && !arguments.motion.empty())
+        throw InputError(fmt::format("--motion is '{}'; it goes with --performer", arguments.motion));
+    std::optional<PerformerFrames> performer;
+    if (!arguments.performer.empty()) performer.emplace(arguments.performer, arguments.motion);
+    video::VideoWriter writer(arguments.output, arguments.rate_hz);
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        std::vector<io::Image> pictures = {io::read_png(files[k])};
+        for (const auto& folder : beside) pictures.push_back(io::read_png(folder[k]));
+        if (performer) {
+            writer.add(video::beside(performer->next(), pictures));
+        } else {
+            const io::Image first = pictures.front();
+            pictures.erase(pictures.begin());
+            writer.add(pictures.empty() ? first : video::beside(first, pictures));
+        }
+    }
     writer.finish();
-    if (!quiet) std::cout << fmt::format("{}: {}\n", output, base::counted(files.size(), "frame"));
+    if (!arguments.quiet) std::cout << fmt::format("{}: {}\n", arguments.output, base::counted(files.size(), "frame"));
 }
 
 /// PREFIX.mp4, PREFIX_points.csv (68 points), PREFIX_curves.csv, PREFIX_truth.csv (pose and weights).
@@ -172,15 +217,23 @@ int run_video(int argc, char** argv) {
     add_capture_options(*tracking, capture);
     tracking->callback([&] { track(capture); });
 
-    std::string folder, output;
-    double rate_hz = 30;
-    bool quiet = false;
+    LiveArguments live;
+    auto* living = app.add_subcommand("live", "Lets a face move as the performer before a camera does");
+    add_live_options(*living, live);
+    living->callback([&] { run_live(live); });
+
+    WriteArguments write;
     auto* writing = app.add_subcommand("write", "A folder of PNG files as an MP4");
-    writing->add_option("FRAMES", folder, "Folder of PNG files of one size, in the order of their names")->required();
-    writing->add_option("OUTPUT", output, "MP4 file")->required();
-    writing->add_option("--fps", rate_hz, "Frames a second")->capture_default_str();
-    writing->add_flag("--quiet", quiet, "Say nothing but errors");
-    writing->callback([&] { write_video(folder, output, rate_hz, quiet); });
+    writing->add_option("FRAMES", write.folder, "Folder of PNG files of one size, in the order of their names")
+        ->required();
+    writing->add_option("OUTPUT", write.output, "MP4 file")->required();
+    writing->add_option("--fps", write.rate_hz, "Frames a second")->capture_default_str();
+    writing->add_option("--beside", write.beside, "Further folders, whose pictures stand beside; repeat")
+        ->allow_extra_args(false);
+    writing->add_option("--performer", write.performer, "Video whose frames stand before the pictures");
+    writing->add_option("--motion", write.motion, "Feature motion of that video (.csv): its curves are drawn on");
+    writing->add_flag("--quiet", write.quiet, "Say nothing but errors");
+    writing->callback([&] { write_video(write); });
 
     std::string prefix;
     video::PerformanceOptions performance;
@@ -192,6 +245,7 @@ int run_video(int argc, char** argv) {
     rendering->add_option("--fps", performance.rate_hz, "Frames a second")->capture_default_str();
     rendering->add_option("--noise", performance.noise, "Of the camera, grey levels")->capture_default_str();
     rendering->add_option("--head-motion", performance.head_motion, "0: the head is still")->capture_default_str();
+    rendering->add_option("--expression", performance.expression, "0: the face is at rest")->capture_default_str();
     rendering->add_option("--light-change", performance.light_change, "0: the light is steady")->capture_default_str();
     add_seed_option(*rendering, performance.seed);
     rendering->callback([&] { render(prefix, performance); });

@@ -1,7 +1,7 @@
 # OpenCV's modules that the room `video` links, if they are there (scripts/setup.sh --video installs them).
 set(MIMIK_VIDEO_FOUND FALSE)
 if(NOT MIMIK_SANITIZE)
-  set(video_modules core imgproc imgcodecs video videoio objdetect ml calib3d)
+  set(video_modules core imgproc imgcodecs video videoio objdetect ml calib3d dnn)
   find_package(OpenCV 4.6 CONFIG QUIET COMPONENTS ${video_modules})
   set(MIMIK_VIDEO_FOUND ${OpenCV_FOUND})
   foreach(module IN LISTS video_modules)

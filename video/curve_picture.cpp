@@ -48,6 +48,50 @@ void draw_face(io::Image& frame, const std::optional<TrackedFace>& face) {
     draw_curves(image, face->curves, std::max(1, frame.height / 500), [](const Pixel& p) { return p; });
 }
 
+void draw_motion(io::Image& frame, const capture::FeatureMotion& motion, std::size_t row) {
+    const auto& seen = motion.frames.at(row);
+    if (seen.state == capture::TrackState::lost) return draw_face(frame, std::nullopt);
+    Points68 points;
+    points.fill(Pixel::Zero());
+    for (const auto& feature : capture::face_features()) {
+        const auto k = motion.find(feature.name);
+        const bool known = k && seen.features[*k].in_image;
+        // All but the tip of the nose lie on curves.
+        if (!known && feature.name != "nose_tip") return;
+        if (known) points[static_cast<std::size_t>(feature.point68)] = seen.features[*k].pixel - Pixel(0.5, 0.5);
+    }
+    TrackedFace face;
+    face.curves = curves_through(points);
+    draw_face(frame, face);
+}
+
+int beside_height(const io::Image& frame) { return std::min(frame.height, 720); }
+
+io::Image beside(const io::Image& frame, const std::vector<io::Image>& faces) {
+    const int height = beside_height(frame);
+    std::vector<cv::Mat> scaled;
+    int width = 0;
+    const auto add = [&](const io::Image& image) {
+        const cv::Mat from(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data()));  // NOLINT
+        cv::Mat to = from;
+        if (image.height != height)
+            cv::resize(from, to, cv::Size(std::max(1, image.width * height / image.height), height), 0, 0,
+                       image.height > height ? cv::INTER_AREA : cv::INTER_LINEAR);
+        width += to.cols;
+        scaled.push_back(to);
+    };
+    add(frame);
+    for (const auto& face : faces) add(face);
+    auto made = empty_image(width, height);
+    cv::Mat to = matrix_of(made);
+    int left = 0;
+    for (const auto& part : scaled) {
+        part.copyTo(to(cv::Rect(left, 0, part.cols, height)));
+        left += part.cols;
+    }
+    return made;
+}
+
 void ContactSheet::add(const io::Image& frame, const std::optional<TrackedFace>& face, const std::string& caption) {
     if (full()) return;
     auto cell = empty_image(cell_width, cell_height);

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "capture/feature_motion.h"
 #include "io/image.h"
 #include "video/feature_tracker.h"
 
@@ -10,6 +13,15 @@ namespace mimik::video {
 
 /// Draws the curves on a frame; where the face is lost, says so in its corner.
 void draw_face(io::Image& frame, const std::optional<TrackedFace>& face);
+
+/// The same of a row of feature motion: curves through its pixels. A row that lacks some has none; one that is lost
+/// says so.
+void draw_motion(io::Image& frame, const capture::FeatureMotion& motion, std::size_t row);
+
+/// Height of what beside() makes of a frame: its own, at most 720.
+[[nodiscard]] int beside_height(const io::Image& frame);
+/// A performer's frame, and the faces that it moves to its right, all of one height.
+[[nodiscard]] io::Image beside(const io::Image& frame, const std::vector<io::Image>& faces);
 
 /// Close-ups of a face over a video, five in a row: a picture to judge a tracker by.
 class ContactSheet {

@@ -11,6 +11,7 @@
 #include "base/errors.h"
 #include "video/colour_network.h"
 #include "video/face_finder.h"
+#include "video/face_watch.h"
 
 namespace mimik::video {
 namespace {
@@ -81,21 +82,43 @@ FaceCurves halfway(FaceCurves a, const FaceCurves& b) {
 
 constexpr int points_a_curve = 5;
 
+/// The square that a finder would put around it.
+FaceBox box_of_place(const FacePlace& place) {
+    const auto unit = FoundFace{Pixel::Zero(), 1}.place();
+    const double size_px = place.outer_eyes_px / unit.outer_eyes_px;
+    return {place.middle - size_px * unit.middle, size_px};
+}
+
 class PaperTracker final : public FeatureTracker {
 public:
     PaperTracker(std::shared_ptr<const ColourNetwork> network, const PaperTrackerOptions& options)
-        : network_(std::move(network)), options_(options) {
-        options_.check();
-    }
+        : network_(std::move(network)),
+          options_((options.check(), options)),
+          chooser_(options.face),
+          watch_(options.watch) {}
 
     [[nodiscard]] std::string name() const override { return "paper"; }
-    void restart() override { followed_.reset(); }
+    void restart() override {
+        followed_.reset();
+        chooser_.restart();
+        watch_.forget();
+    }
 
     [[nodiscard]] std::optional<TrackedFace> next(const io::Image& frame) override {
-        if (followed_ && follow(frame)) return result(false);
-        followed_.reset();
-        if (acquire(frame)) return result(true);
-        return std::nullopt;
+        std::optional<TrackedFace> face;
+        if (followed_ && follow(frame)) {
+            face = result(false);
+        } else {
+            followed_.reset();
+            if (acquire(frame)) face = result(true);
+        }
+        if (face) {
+            chooser_.followed(box_of_place(face->place));
+        } else {
+            chooser_.lost();
+            watch_.note_lost();
+        }
+        return face;
     }
 
 private:
@@ -137,9 +160,11 @@ private:
 
     bool acquire(const io::Image& frame) {
         if (!finder_) finder_.emplace();
-        for (const auto& found : finder_->find(frame)) {
+        std::vector<FaceBox> boxes;
+        for (const auto& found : finder_->find(frame)) boxes.push_back({found.corner, found.size_px});
+        for (const auto& box : chooser_.candidates(boxes)) {
             Followed made;
-            made.place = found.place();
+            made.place = FoundFace{box.corner, box.size_px}.place();
             FaceCurves curves;
             double contrast = 0;
             for (int round = 0; round < 2; ++round) {
@@ -157,7 +182,12 @@ private:
             if (std::min(contrast, made.contrast) < options_.least_contrast) continue;
             made.resting = halfway(curves, aligned);
             made.curves = mapped(curves, [&](const Pixel& p) { return made.place.frame_from_patch(p); });
+            if (!is_whole_face(made.curves, made.place, frame.width, frame.height)) continue;
             made.grey = grey_of(patch);
+            const double lips = lip_contrast(curves, levels, options_.fit);
+            const auto look = watch_.look(made.grey, lips);
+            if (lips < options_.least_lip_contrast || !watch_.accepts(look)) continue;
+            watch_.learn(made.grey, lips);
             made.patch_place = made.place;
             made.width = frame.width;
             made.height = frame.height;
@@ -277,20 +307,38 @@ private:
             compete(curves, levels);
         if (followed.contrast < 0.5 * options_.least_contrast) return false;
         followed.curves = mapped(curves, [&](const Pixel& p) { return place.frame_from_patch(p); });
-        followed.place = between(place, place_of_eyes(followed.curves), 0.15);
         followed.grey = grey_of(patch);
         followed.patch_place = place;
+        followed.place = between(place, place_of_eyes(followed.curves), 0.15);
+        if (!is_whole_face(followed.curves, followed.place, frame.width, frame.height)) return false;
+        return is_still_there(frame, lip_contrast(curves, levels, options_.fit));
+    }
+
+    /// Whether what is followed still looks like the face, and is seen by the finder now and then.
+    bool is_still_there(const io::Image& frame, double lips) {
+        auto& followed = *followed_;
+        const auto look = watch_.look(followed.grey, lips);
+        if (watch_.covered(look)) {
+            watch_.note_covered();
+            return false;
+        }
         ++followed.age;
-        if (followed.age % (followed.misses ? 3 : options_.look_every_frames) != 0) return true;
-        if (!finder_) finder_.emplace();
-        followed.misses = finder_->sees(frame, followed.place) ? 0 : followed.misses + 1;
-        return followed.misses < options_.misses;
+        if (!watch_.alike(look) || followed.misses > 0 || followed.age % options_.look_every_frames == 0) {
+            if (!finder_) finder_.emplace();
+            followed.misses = finder_->sees(frame, followed.place) ? 0 : followed.misses + 1;
+        }
+        if (followed.misses > 0 && !watch_.alike(look)) return false;
+        if (followed.misses >= options_.misses) return false;
+        watch_.learn(followed.grey, lips);
+        return true;
     }
 
     std::shared_ptr<const ColourNetwork> network_;
     PaperTrackerOptions options_;
     std::optional<FaceFinder> finder_;
     std::optional<Followed> followed_;
+    FaceChooser chooser_;
+    FaceWatch watch_;
 };
 
 }  // namespace
@@ -298,9 +346,13 @@ private:
 void PaperTrackerOptions::check() const {
     fit.check();
     flow.check();
+    face.check();
+    watch.check();
     if (!(least_contrast > 0)) throw InputError(fmt::format("least_contrast is {}; give more than 0", least_contrast));
     if (!(least_inliers > 0 && least_inliers <= 1))
         throw InputError(fmt::format("least_inliers is {}; give more than 0, at most 1", least_inliers));
+    if (!(least_lip_contrast >= 0))
+        throw InputError(fmt::format("least_lip_contrast is {}; give 0 or more", least_lip_contrast));
     if (look_every_frames < 1)
         throw InputError(fmt::format("look_every_frames is {}; give 1 or more", look_every_frames));
     if (misses < 1) throw InputError(fmt::format("misses is {}; give 1 or more", misses));

@@ -14,6 +14,10 @@ expect_code 2 "--video is './take.mp4', the same file as VIDEO" "$mimik" capture
 expect_code 2 "--landmarks68 is 'x.csv', the same file as --output" "$mimik" capture take.mp4 -o x.csv --landmarks68 x.csv
 [ "$(cat take.mp4)" = "a take" ] || fail "take.mp4 was written over"
 rm take.mp4
+expect_code 2 "--face is '3,x'; a pixel has two numbers" "$mimik" capture take.mp4 -o x.csv --face 3,x
+expect_code 2 "--tracker is 'best'; there are paper, dlib and onnx" "$mimik" capture take.mp4 -o x.csv --tracker best
+expect_code 2 "--tracker onnx: --model is missing" "$mimik" capture take.mp4 -o x.csv --tracker onnx
+expect_code 2 "--model is 'a.onnx'; it goes with --tracker onnx" "$mimik" capture take.mp4 -o x.csv --model a.onnx
 claim "without OpenCV's program it is said what to install, and options are checked before"
 
 video=$(dirname "$mimik")/mimik-video
@@ -44,7 +48,16 @@ cp sheet.png frames/frame_000001.png
 [ -s out.mp4 ] || fail "no out.mp4"
 [ -z "$("$video" write frames out.mp4 --fps 10 --quiet)" ] || fail "write --quiet speaks"
 expect_code 2 "frames2: is no folder" "$video" write frames2 out.mp4
-claim "a folder of pictures is written as a video"
+"$mimik" capture made.mp4 -o asked.csv --neutral 0:1 --face 240,170 --quiet
+cmp motion.csv asked.csv || fail "the one face there is, asked for by its pixel, is another"
+"$mimik" capture made.mp4 -o nobody.csv --neutral 0:1 --face 2 2>notes.txt >/dev/null
+[ "$(grep -c ,lost, nobody.csv)" = 4 ] || fail "$(cut -c1-40 nobody.csv)"
+claim "of several faces the one asked for is followed; one that is not there is lost"
+
+"$video" write frames out2.mp4 --fps 10 --beside frames --performer made.mp4 --motion motion.csv --quiet
+[ -s out2.mp4 ] || fail "no out2.mp4"
+expect_code 2 "--motion is 'motion.csv'; it goes with --performer" "$video" write frames o.mp4 --motion motion.csv
+claim "a folder of pictures is written as a video, beside others and the performer"
 
 "$video" train made.mp4 made_points.csv -o colours.yml >/dev/null
 "$mimik" capture made.mp4 -o own.csv --neutral 0:1 --colours colours.yml --quiet

@@ -50,13 +50,12 @@ TEST(Additivity, vertices_that_no_scan_shows_or_that_hold_still_do_not_count) {
 
 TEST(Additivity, what_does_not_move_or_does_not_fit_is_refused) {
     const auto still = field({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+    const std::vector<std::vector<Vector>> shorter = {{Vector(1, 0, 0)}};
     EXPECT_THAT(test::message_of([&] {
                     (void)add_up(still, std::vector{still, still}, all_known, {});
                 }),
                 testing::HasSubstr("moves by 0.5 mm"));
-    EXPECT_THAT(test::message_of([&] {
-                    (void)add_up(still, std::vector<std::vector<Vector>>{field({{1, 0, 0}})}, all_known, {});
-                }),
+    EXPECT_THAT(test::message_of([&] { (void)add_up(still, shorter, all_known, {}); }),
                 testing::HasSubstr("of 1 and of 3 vertices"));
     EXPECT_THROW(AdditivityOptions{.moving_mm = 0}.check(), InputError);
 }

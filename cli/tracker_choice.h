@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+
+#include "cli/capture_options.h"
+#include "video/feature_tracker.h"
+#include "video/track_video.h"
+
+namespace mimik::cli {
+
+/// The tracker that --tracker, --model, --colours and --face ask for.
+[[nodiscard]] std::unique_ptr<video::FeatureTracker> make_tracker(const TrackingArguments& arguments);
+
+/// What --neutral, --smooth, --interocular-mm and --frames say, checked.
+[[nodiscard]] video::TrackVideoOptions track_options(const TrackingArguments& arguments, long most_frames);
+
+}  // namespace mimik::cli
