@@ -73,7 +73,7 @@ grep -q "^  thesis-half  *\*" methods.txt && ! grep "^  deformation-transfer  *\
 ! awk 'length > 100' help.txt | grep . || fail "help is wider than 100 columns"
 ! "$mimik" --help | awk 'length > 110' | grep . || fail "a command has more than one line"
 commands=$("$mimik" --help | sed -n '/^Commands/,/^Options/s/^  \([a-z]*\) .*/\1/p')
-[ "$(echo $commands)" = "synthesize scans preprocess register animate model evaluate run merge report verify compare tune sensitivity additivity panels figures figure warp distance mocap capture examples perform regions catalogue version help" ] || fail "order: $commands"
+[ "$(echo $commands)" = "synthesize scans preprocess register animate model evaluate run merge report verify compare tune sensitivity additivity panels figures figure warp distance mocap capture examples perform live regions catalogue version help" ] || fail "order: $commands"
 for command in $commands; do
   "$mimik" $command --help | grep -q "^Usage: mimik $command" || fail "usage of $command"
   [ "$command" = help ] || "$mimik" $command --help | grep -q -- "--json" || fail "--json of $command"
