@@ -133,4 +133,134 @@ ShapeMotion decode_live_link_csv(std::string_view text, const std::string& name,
     return motion;
 }
 
+std::span<const std::string_view> live_link_channels() {
+    static constexpr std::array<std::string_view, 61> channels = {"EyeBlinkLeft",
+                                                                  "EyeLookDownLeft",
+                                                                  "EyeLookInLeft",
+                                                                  "EyeLookOutLeft",
+                                                                  "EyeLookUpLeft",
+                                                                  "EyeSquintLeft",
+                                                                  "EyeWideLeft",
+                                                                  "EyeBlinkRight",
+                                                                  "EyeLookDownRight",
+                                                                  "EyeLookInRight",
+                                                                  "EyeLookOutRight",
+                                                                  "EyeLookUpRight",
+                                                                  "EyeSquintRight",
+                                                                  "EyeWideRight",
+                                                                  "JawForward",
+                                                                  "JawRight",
+                                                                  "JawLeft",
+                                                                  "JawOpen",
+                                                                  "MouthClose",
+                                                                  "MouthFunnel",
+                                                                  "MouthPucker",
+                                                                  "MouthRight",
+                                                                  "MouthLeft",
+                                                                  "MouthSmileLeft",
+                                                                  "MouthSmileRight",
+                                                                  "MouthFrownLeft",
+                                                                  "MouthFrownRight",
+                                                                  "MouthDimpleLeft",
+                                                                  "MouthDimpleRight",
+                                                                  "MouthStretchLeft",
+                                                                  "MouthStretchRight",
+                                                                  "MouthRollLower",
+                                                                  "MouthRollUpper",
+                                                                  "MouthShrugLower",
+                                                                  "MouthShrugUpper",
+                                                                  "MouthPressLeft",
+                                                                  "MouthPressRight",
+                                                                  "MouthLowerDownLeft",
+                                                                  "MouthLowerDownRight",
+                                                                  "MouthUpperUpLeft",
+                                                                  "MouthUpperUpRight",
+                                                                  "BrowDownLeft",
+                                                                  "BrowDownRight",
+                                                                  "BrowInnerUp",
+                                                                  "BrowOuterUpLeft",
+                                                                  "BrowOuterUpRight",
+                                                                  "CheekPuff",
+                                                                  "CheekSquintLeft",
+                                                                  "CheekSquintRight",
+                                                                  "NoseSneerLeft",
+                                                                  "NoseSneerRight",
+                                                                  "TongueOut",
+                                                                  "HeadYaw",
+                                                                  "HeadPitch",
+                                                                  "HeadRoll",
+                                                                  "LeftEyeYaw",
+                                                                  "LeftEyePitch",
+                                                                  "LeftEyeRoll",
+                                                                  "RightEyeYaw",
+                                                                  "RightEyePitch",
+                                                                  "RightEyeRoll"};
+    return channels;
+}
+
+namespace {
+
+/// HH:MM:SS:FF.part of a time since midnight. Thousandths are counted, so that 59.9996 is the next second's 0.
+std::string timecode(double since_midnight_s, double rate_hz) {
+    const double whole = std::floor(since_midnight_s);
+    auto seconds = static_cast<long>(whole);
+    double thousandths = std::round((since_midnight_s - whole) * rate_hz * 1000);
+    if (thousandths >= rate_hz * 1000) {
+        thousandths = 0;
+        ++seconds;
+    }
+    constexpr long day_s = 86400;
+    seconds %= day_s;
+    const auto frames = static_cast<long>(thousandths);
+    return fmt::format("{:02}:{:02}:{:02}:{:02}.{:03}", seconds / 3600, seconds / 60 % 60, seconds % 60, frames / 1000,
+                       frames % 1000);
+}
+
+/// Where each channel is among the shapes of a motion. @throws InputError if a shape is no channel
+std::vector<std::optional<std::size_t>> columns_of_channels(const ShapeMotion& motion) {
+    std::vector<std::optional<std::size_t>> columns;
+    std::size_t found = 0;
+    for (const auto channel : live_link_channels()) {
+        columns.push_back(motion.find(arkit_spelling(std::string(channel))));
+        found += columns.back() ? 1 : 0;
+    }
+    if (found == motion.shapes.size()) return columns;
+    for (std::size_t k = 0; k < motion.shapes.size(); ++k)
+        if (std::find(columns.begin(), columns.end(), k) == columns.end())
+            throw InputError(fmt::format("{} is none of the 61 channels of Live Link Face; leave it out",
+                                         base::in_quotes(motion.shapes[k])));
+    return columns;
+}
+
+}  // namespace
+
+std::string encode_live_link_csv(const ShapeMotion& motion, double start_s) {
+    const auto frames = motion.times_s.size();
+    if (motion.tracked.size() != frames || motion.values.rows() != static_cast<Eigen::Index>(frames) ||
+        motion.values.cols() != static_cast<Eigen::Index>(motion.shapes.size()))
+        throw InputError(fmt::format("a motion of {} times, {} frames and {} x {} values of {} shapes; give one each",
+                                     frames, motion.tracked.size(), motion.values.rows(), motion.values.cols(),
+                                     motion.shapes.size()));
+    if (!(motion.rate_hz > 0 && motion.rate_hz <= 1e5))
+        throw InputError(fmt::format("rate_hz is {}; give frames a second, above 0 and up to 100000", motion.rate_hz));
+    const auto columns = columns_of_channels(motion);
+    std::string text = "Timecode,BlendShapeCount";
+    for (const auto channel : live_link_channels()) text += fmt::format(",{}", channel);
+    text += '\n';
+    for (std::size_t f = 0; f < frames; ++f) {
+        const double time_s = start_s + motion.times_s[f];
+        if (!(time_s >= 0 && time_s < 1e9))
+            throw InputError(fmt::format("frame {} is at {} s; give a time since midnight", f + 1, time_s));
+        text += fmt::format("{},{}", timecode(time_s, motion.rate_hz), motion.tracked[f] ? columns.size() : 0);
+        for (const auto& column : columns) {
+            // Adding zero makes the negative one positive.
+            const double value =
+                column ? motion.values(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(*column)) + 0.0 : 0.0;
+            if (motion.tracked[f]) text += fmt::format(",{}", value);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
 }  // namespace mimik::capture

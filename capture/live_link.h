@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,5 +31,14 @@ struct ShapeMotion {
 /// @param name  stands for the file in errors. @throws InputError naming file, line, column, value and mend.
 [[nodiscard]] ShapeMotion decode_live_link_csv(std::string_view text, const std::string& name,
                                                std::optional<double> rate_hz = {});
+
+/// The 61 channels of Live Link Face in its order and spelling, "EyeBlinkLeft" to "RightEyeRoll".
+[[nodiscard]] std::span<const std::string_view> live_link_channels();
+
+/// What decode_live_link_csv() reads: all 61 channels, those that the motion lacks as 0; a lost frame as a row of 0
+/// shapes. Timecodes count frames to their thousandth part.
+/// @param start_s  of the first frame, seconds since midnight
+/// @throws InputError if a shape is none of the channels, or sizes, times or the rate are not what they must be.
+[[nodiscard]] std::string encode_live_link_csv(const ShapeMotion& motion, double start_s = 0);
 
 }  // namespace mimik::capture

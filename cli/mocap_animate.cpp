@@ -40,18 +40,25 @@ struct AnimateTakeArguments {
     animation::MarkerAnimatorOptions animator;
 };
 
-enum class Kind { meshes, glb, video };
+enum class Kind { meshes, glb, video, weights };
 Kind kind_of(const std::filesystem::path& output) {
     const auto extension = base::lower_case(output.extension().string());
     if (extension == ".glb") return Kind::glb;
     if (extension == ".mp4") return Kind::video;
+    if (extension == ".csv") return Kind::weights;
     if (extension.empty()) return Kind::meshes;
-    throw InputError(fmt::format("{}: give a folder (no extension), a .glb or a .mp4", output.string()));
+    throw InputError(fmt::format("{}: give a folder (no extension), a .glb, a .mp4 or a .csv", output.string()));
 }
 
 void check(const AnimateTakeArguments& arguments) {
-    (void)animation::parse_marker_method(arguments.method);
-    (void)kind_of(arguments.output);
+    const auto method = animation::parse_marker_method(arguments.method);
+    if (kind_of(arguments.output) == Kind::weights && method != animation::MarkerMethod::units &&
+        method != animation::MarkerMethod::units_bones)
+        throw InputError(
+            fmt::format("{}: a .csv says how strong AUs are, which --method {} does not; give units or "
+                        "units-bones",
+                        arguments.output.string(), arguments.method));
+    arguments.recording.refuse_as_output(arguments.output);
     if (arguments.every < 1) throw InputError("--every: is 0; give 1 for every frame, 2 for every other one");
     if (arguments.components < 1 || arguments.components > io::most_animated_targets)
         throw InputError(
@@ -282,6 +289,8 @@ int run_animate_take(const AnimateTakeArguments& arguments) {
                                       base::counted(motion.held(), "sample is", "samples are")));
     if (kind == Kind::glb)
         result.written.push_back(write_moving_glb(arguments.output, motion, arguments.every, arguments.components));
+    else if (kind == Kind::weights)
+        result.written.push_back(write_live_link(arguments.output, motion, arguments.every));
     else if (kind == Kind::video)
         result.written.push_back(write_mocap_video(arguments.output, motion, arguments.every, arguments.common));
     else
@@ -304,7 +313,8 @@ int run_animate_take(const AnimateTakeArguments& arguments) {
 void add_output_options(CLI::App& command, AnimateTakeArguments& arguments) {
     command
         .add_option("-o,--output", arguments.output,
-                    "Folder of meshes frame_000001.vtp ..., a .glb whose morph weights move, or a .mp4")
+                    "Folder of meshes frame_000001.vtp ..., a .glb whose morph weights move, a .mp4, or a .csv: "
+                    "strengths of AUs as Live Link Face writes them")
         ->required();
     command.add_option("--format", arguments.format, "Of the meshes in a folder: vtp or ply")
         ->check(CLI::IsMember({"vtp", "ply"}))

@@ -187,6 +187,7 @@ void add_mocap_command(CLI::App& app, int& exit_code) {
     add_convert(*group, exit_code);
     add_mocap_clean(*group, exit_code);
     add_mocap_retarget(*group, exit_code);
+    add_mocap_fit(*group, exit_code);
     add_mocap_animate(*group, exit_code);
     add_mocap_synthesize(*group, exit_code);
     add_mocap_markers(*group, exit_code);

@@ -6,6 +6,7 @@
 
 #include "capture/motion_file.h"
 #include "cli/command.h"
+#include "geometry/radial_basis_map.h"
 
 namespace mimik::cli {
 
@@ -21,9 +22,14 @@ struct Recording {
     void refuse_as_output(const std::filesystem::path& output) const;
 };
 
+/// --kernel of the commands that map space by points.
+void add_radial_kernel_option(CLI::App& command, std::string& name);
+[[nodiscard]] geometry::RadialKernel radial_kernel_named(const std::string& name);
+
 /// Commands of `mimik mocap` that live in files of their own.
 void add_mocap_clean(CLI::App& group, int& exit_code);
 void add_mocap_retarget(CLI::App& group, int& exit_code);
+void add_mocap_fit(CLI::App& group, int& exit_code);
 void add_mocap_animate(CLI::App& group, int& exit_code);
 void add_mocap_synthesize(CLI::App& group, int& exit_code);
 void add_mocap_markers(CLI::App& group, int& exit_code);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "animation/arkit_weights.h"
 #include "animation/motion_components.h"
 #include "base/errors.h"
 #include "base/file.h"
@@ -12,7 +13,9 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "capture/control_surface.h"
+#include "capture/live_link.h"
 #include "cli/figure_start.h"
+#include "facs/facs_catalogue.h"
 #include "io/glb.h"
 #include "io/landmark_io.h"
 #include "io/mesh_io.h"
@@ -118,6 +121,21 @@ MocapWritten write_moving_glb(const std::filesystem::path& file, const MocapMoti
     written.what = fmt::format("{} of {}; no vertex is more than {:.3f} mm off in any frame ({:.3f} rms)",
                                base::counted(frames, "frame"), base::counted(written.components, "component"),
                                parts.largest_error_mm, parts.rms_error_mm);
+    return written;
+}
+
+MocapWritten write_live_link(const std::filesystem::path& file, const MocapMotion& motion, std::size_t every) {
+    const auto& rig = motion.rig();
+    std::vector<std::vector<double>> strengths;
+    for (std::size_t f = 0; f < motion.frames(); f += every)
+        strengths.push_back(rig.animator().weights(motion.markers_mm(f)));
+    auto shapes = animation::arkit_weights(facs::builtin_catalogue(), rig.units().names, strengths,
+                                           motion.rate_hz() / static_cast<double>(every));
+    base::write_atomically(base::where_links_lead(file), capture::encode_live_link_csv(shapes));
+    MocapWritten written;
+    written.remarks = std::move(shapes.remarks);
+    written.what = fmt::format("{}, {} of the 61 channels of Live Link Face", base::counted(strengths.size(), "row"),
+                               shapes.shapes.size());
     return written;
 }
 

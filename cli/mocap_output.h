@@ -57,6 +57,9 @@ struct MocapWritten {
 /// Pictures by mimik-figure, and mimik-video makes them a video. @throws InputError if either is not there.
 [[nodiscard]] MocapWritten write_mocap_video(const std::filesystem::path& file, const MocapMotion& motion,
                                              std::size_t every, const Common& common);
+/// The strengths of AUs as a table of Live Link Face. @throws InputError if the method knows none.
+[[nodiscard]] MocapWritten write_live_link(const std::filesystem::path& file, const MocapMotion& motion,
+                                           std::size_t every);
 /// Evenly spaced frames: above the markers of the recording as their control surface, below the face.
 /// @param source  as recorded, the head's motion taken off
 [[nodiscard]] MocapWritten write_sheet(const std::filesystem::path& picture, const MocapMotion& motion,

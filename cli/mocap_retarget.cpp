@@ -26,18 +26,11 @@ struct Arguments {
     capture::RetargetOptions options;
 };
 
-geometry::RadialKernel kernel_named(const std::string& name) {
-    using geometry::RadialKernel;
-    for (const auto kernel : {RadialKernel::gaussian, RadialKernel::wendland, RadialKernel::r, RadialKernel::r2_log_r2})
-        if (name == geometry::to_string(kernel)) return kernel;
-    return RadialKernel::inverse_multiquadric;
-}
-
 int run(const Arguments& arguments) {
     (void)capture::motion_format(arguments.output);  // before the work
     arguments.recording.refuse_as_output(arguments.output);
     auto options = arguments.options;
-    options.basis.kernel = kernel_named(arguments.kernel);
+    options.basis.kernel = radial_kernel_named(arguments.kernel);
     check_by_option({{"radius_ratio", "--radius-ratio"}}, [&] { options.basis.check(); });
     const auto file = arguments.recording.read();
     database::refuse_hidden_file(arguments.labels);
@@ -66,6 +59,19 @@ int run(const Arguments& arguments) {
 
 }  // namespace
 
+geometry::RadialKernel radial_kernel_named(const std::string& name) {
+    using geometry::RadialKernel;
+    for (const auto kernel : {RadialKernel::gaussian, RadialKernel::wendland, RadialKernel::r, RadialKernel::r2_log_r2})
+        if (name == geometry::to_string(kernel)) return kernel;
+    return RadialKernel::inverse_multiquadric;
+}
+
+void add_radial_kernel_option(CLI::App& command, std::string& name) {
+    command.add_option("--kernel", name, "imq (inverse multiquadric), gaussian, wendland, r, r2logr")
+        ->check(CLI::IsMember({"imq", "gaussian", "wendland", "r", "r2logr"}))
+        ->capture_default_str();
+}
+
 void add_mocap_retarget(CLI::App& group, int& exit_code) {
     auto* command = group.add_subcommand("retarget", "Bring a recording to another face, whose markers are labelled");
     auto arguments = std::make_shared<Arguments>();
@@ -75,9 +81,7 @@ void add_mocap_retarget(CLI::App& group, int& exit_code) {
                      "Where the markers are on that face, by their names (landmark file: .csv .pp .fcsv ...)")
         ->required();
     command->add_option("-o,--output", arguments->output, "File to write (.c3d .trc .csv)")->required();
-    command->add_option("--kernel", arguments->kernel, "imq (inverse multiquadric), gaussian, wendland, r, r2logr")
-        ->check(CLI::IsMember({"imq", "gaussian", "wendland", "r", "r2logr"}))
-        ->capture_default_str();
+    add_radial_kernel_option(*command, arguments->kernel);
     command->add_option("--radius-ratio", arguments->options.basis.radius_ratio,
                         "Radius of a marker's function, times the distance to its nearest (default: 1; gaussian 2, "
                         "wendland 6)");

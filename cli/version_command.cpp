@@ -9,6 +9,7 @@
 #include <sys/utsname.h>
 
 #include "base/companion.h"
+#include "base/optimiser_modules.h"
 #include "base/parallel.h"
 #include "base/pcl_module.h"
 #include "cli/command.h"
@@ -41,7 +42,8 @@ nlohmann::ordered_json facts() {
     } catch (const std::exception&) {  // there is none, and that is said
     }
     for (const auto& [key, name] :
-         {std::pair{"pcl_module", base::pcl_module_name}, std::pair{"opencv_program", "mimik-opencv"}}) {
+         {std::pair{"pcl_module", base::pcl_module_name}, std::pair{"opencv_program", "mimik-opencv"},
+          std::pair{"ceres_module", base::ceres_module_name}, std::pair{"simplex_module", base::simplex_module_name}}) {
         const auto file = base::find_companion(name);
         document[key] = file.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(file.string());
     }

@@ -109,6 +109,15 @@ video=$(dirname "$mimik")/mimik-video
 "$video" render -o performance --frames 10 --fps 8 --seed 1 >/dev/null
 "$video" track performance.mp4 -o performance.csv --neutral 0:1 --sheet made/video_capture.png --quiet >/dev/null
 
+# The labels of one face on another one, by twelve points.
+"$mimik" mocap synthesize take --seconds 0.1 --truth-every 0 --seed 1 --quiet >/dev/null
+awk -F, 'NR == 1 || $1 ~ /^(forehead_high|eye_(outer|inner)_(left|right)|nose_tip|mouth_corner_(left|right)|lip_upper_middle|chin|jaw_outer_(left|right))$/' \
+  take/target_markers.csv >twelve.csv
+"$mimik" mocap fit take/source.ply take/target.ply --labels take/source_markers.csv --points twelve.csv -o fitted.csv --quiet >/dev/null
+draw mesh_registration --columns 3 --size 330x390 take/source.ply take/target.ply take/target.ply \
+  --landmarks take/source_markers.csv --landmarks twelve.csv --landmarks fitted.csv \
+  --caption "the reference, with 76 labels" --caption "another face, with 12 points" --caption "its labels"
+
 # Control points of the mean, with their displacements.
 "$mimik" model work --source mean --expression 12,4,15 -o models --quiet >/dev/null
 panels=

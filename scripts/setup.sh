@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # setup.sh [--check] [--bench] [--adapters] [--page] [--browser] [--video] [--slurm]: installs the Debian 12 packages that
 # Mimik is built and run with; does nothing where they are there. --check adds what scripts/check.sh needs (clang tools),
-# --bench what scripts/bench.sh compares with, --adapters the two libraries of adapters/ and companions/ that nothing else
-# needs, --page npm where none is on the PATH: it bundles the page of an experiment; --browser what tests that page;
+# --bench what scripts/bench.sh compares with, --adapters the three libraries of adapters/ and companions/ that nothing
+# else needs, --page npm where none is on the PATH: it bundles the page of an experiment; --browser what tests that page;
 # --video OpenCV, for mimik-video (libdlib-dev and libdlib-data add another tracker, if you want it); --slurm a Slurm for
 # the test that starts one. Needs root or sudo to install.
 set -euo pipefail
@@ -27,7 +27,7 @@ for option in "$@"; do
   case "$option" in
     --check) packages+=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev llvm-14) ;;
     --bench) packages+=(libbenchmark-dev libpcl-dev python3-numpy python3-scipy) ;;
-    --adapters) packages+=(libpcl-dev libopencv-dev) ;;
+    --adapters) packages+=(libpcl-dev libopencv-dev libceres-dev) ;;
     --page) command -v npm >/dev/null || packages+=(nodejs npm) ;;
     --browser) packages+=(chromium) ;;
     --video) packages+=(libopencv-dev opencv-data) ;;

@@ -37,8 +37,22 @@ grep -q 'no vertex is more than .* mm off in any frame' glb.txt || fail "$(cat g
 [ "$(head -c 4 talk.glb)" = glTF ] || fail "no GLB"
 claim "another face, placed by landmarks alone, talks in one file"
 
+"$mimik" mocap animate take/recording_b.c3d --jig $jig "${on_source[@]}" --method units -o weights.csv >weights.txt
+grep -q '30 rows, .* of the 61 channels of Live Link Face' weights.txt || fail "$(cat weights.txt)"
+python3 - <<'CHECK' || fail "the weights"
+import csv
+rows = list(csv.DictReader(open("weights.csv")))
+assert len(rows) == 30 and all(r["BlendShapeCount"] == "61" for r in rows)
+assert rows[0]["Timecode"] == "00:00:00:00.000" and rows[29]["Timecode"] == "00:00:00:29.000"
+values = [float(v) for r in rows for k, v in r.items() if k not in ("Timecode", "BlendShapeCount")]
+assert min(values) >= 0 and max(values) <= 1
+assert max(float(r["JawOpen"]) for r in rows) > 0.2  # who speaks opens the mouth
+CHECK
+claim "the strengths of AUs are written as Live Link Face writes them"
+
+expect_code 2 "--method bones does not" "$mimik" mocap animate take/recording_b.c3d "${on_source[@]}" --method bones -o o.csv
 expect_code 2 "there are: still, nearest" "$mimik" mocap animate take/recording_b.c3d "${on_source[@]}" --method tps -o o
 expect_code 2 "--landmarks: is missing" "$mimik" mocap animate take/recording_b.c3d --target take/source.ply -o o
-expect_code 2 "give a folder (no extension), a .glb or a .mp4" "$mimik" mocap animate take/recording_b.c3d "${on_source[@]}" -o o.fbx
-[ ! -e o ] || fail "written all the same"
+expect_code 2 "give a folder (no extension), a .glb, a .mp4 or a .csv" "$mimik" mocap animate take/recording_b.c3d "${on_source[@]}" -o o.fbx
+[ ! -e o ] && [ ! -e o.csv ] || fail "written all the same"
 claim "what there is not is named, and nothing is written"
