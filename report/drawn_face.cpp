@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <fmt/format.h>
@@ -29,6 +30,59 @@ geometry::BridgedVertices bridged_of(HoleDrawing holes) {
     return holes == HoleDrawing::gap ? geometry::BridgedVertices::leave_out : geometry::BridgedVertices::keep;
 }
 
+/// Bridged vertices that stand in a narrow gap of their row or column: a crack before an ear, say.
+std::vector<std::uint8_t> narrow_gaps(const geometry::QuadGrid& grid) {
+    constexpr int widest = 12;  // vertices: a centimetre or so
+    std::vector<std::uint8_t> narrow(grid.size(), 0);
+    const auto scan = [&](int lines, int length, const auto& vertex) {
+        for (int line = 0; line < lines; ++line) {
+            int last = -1;  // measured
+            for (int k = 0; k < length; ++k) {
+                const auto v = vertex(line, k);
+                if (!grid.inside(v)) last = -1;
+                if (!grid.measured(v)) continue;
+                if (last >= 0 && k - last - 1 <= widest)
+                    for (int gap = last + 1; gap < k; ++gap) narrow[vertex(line, gap)] = 1;
+                last = k;
+            }
+        }
+    };
+    scan(grid.rows, grid.cols, [&](int row, int col) { return grid.index(row, col); });
+    scan(grid.cols, grid.rows, [&](int col, int row) { return grid.index(row, col); });
+    return narrow;
+}
+
+/// Without what was bridged at the rim, between jaw and neck, say: the hull of the data closes that, and it is no hole.
+geometry::QuadGrid holes_alone(geometry::QuadGrid grid) {
+    using geometry::VertexOrigin;
+    const auto narrow = narrow_gaps(grid);
+    const auto neighbours = [&](std::uint32_t v) {
+        const int row = static_cast<int>(v) / grid.cols, col = static_cast<int>(v) % grid.cols;
+        std::array<std::int64_t, 4> all = {-1, -1, -1, -1};  // -1: beyond the grid
+        if (row > 0) all[0] = grid.index(row - 1, col);
+        if (row + 1 < grid.rows) all[1] = grid.index(row + 1, col);
+        if (col > 0) all[2] = grid.index(row, col - 1);
+        if (col + 1 < grid.cols) all[3] = grid.index(row, col + 1);
+        return all;
+    };
+    const auto outside = [&](std::int64_t v) { return v < 0 || !grid.inside(static_cast<std::size_t>(v)); };
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t v = 0; v < grid.size(); ++v) {
+        const auto around = neighbours(v);
+        if (grid.origin[v] == VertexOrigin::bridged && std::any_of(around.begin(), around.end(), outside))
+            open.push_back(v);
+    }
+    while (!open.empty()) {
+        const auto v = open.back();
+        open.pop_back();
+        if (grid.origin[v] != VertexOrigin::bridged || narrow[v]) continue;
+        grid.origin[v] = VertexOrigin::outside;
+        for (const auto other : neighbours(v))
+            if (other >= 0) open.push_back(static_cast<std::uint32_t>(other));
+    }
+    return grid;
+}
+
 void colour_by_origin(Mesh& mesh, const geometry::QuadGrid& grid, HoleDrawing holes,
                       const std::vector<std::uint32_t>& kept) {
     mesh.colours.clear();
@@ -49,21 +103,29 @@ Colour inside_colour(double longest_mm) {
     return colour;
 }
 
-/// The quads that a motion tears, each with corners of its own so that its colour stays its own.
+/// The quads that a motion tears, each with corners of its own. All are as dark as the widest tenth, so that no stripes
+/// run through the mouth.
 void add_inside_of_mouth(Mesh& mesh, const animation::AnimatedFace& animated, const Face& neutral,
                          const std::vector<Point>& moved_mm) {
     const auto all = geometry::quads(neutral.grid);
+    std::vector<std::size_t> torn;
+    std::vector<double> longest_mm;
     std::vector<std::uint32_t> corners;
     for (std::size_t f = 0; f < all.size(); ++f) {
         corners.assign(all[f].begin(), all[f].end());
         if (!animation::torn(animated, animated.field.mm, corners)) continue;
-        double longest_mm = 0;
+        torn.push_back(f);
+        double& longest = longest_mm.emplace_back(0);
         for (std::size_t k = 0; k < corners.size(); ++k)
-            longest_mm =
-                std::max(longest_mm, (moved_mm[corners[k]] - moved_mm[corners[(k + 1) % corners.size()]]).norm());
-        const auto colour = inside_colour(longest_mm);
+            longest = std::max(longest, (moved_mm[corners[k]] - moved_mm[corners[(k + 1) % corners.size()]]).norm());
+    }
+    if (torn.empty()) return;
+    const auto widest = longest_mm.begin() + static_cast<std::ptrdiff_t>(longest_mm.size() * 9 / 10);
+    std::nth_element(longest_mm.begin(), widest, longest_mm.end());
+    const auto colour = inside_colour(*widest);
+    for (const auto f : torn) {
         std::vector<std::uint32_t> own;
-        for (const auto v : corners) {
+        for (const auto v : all[f]) {
             own.push_back(static_cast<std::uint32_t>(mesh.vertices_mm.size()));
             mesh.vertices_mm.push_back(moved_mm[v]);
             mesh.colours.push_back(colour);
@@ -82,7 +144,7 @@ void add_inside_of_mouth(Mesh& mesh, const animation::AnimatedFace& animated, co
 Mesh drawn_surface(const geometry::QuadGrid& grid, HoleDrawing holes, const geometry::Transform& drawn_from_grid,
                    std::vector<std::uint32_t>* kept) {
     std::vector<std::uint32_t> own;
-    auto mesh = geometry::to_mesh(grid, bridged_of(holes), &own);
+    auto mesh = geometry::to_mesh(holes_alone(grid), bridged_of(holes), &own);
     for (auto& p : mesh.vertices_mm) p = drawn_from_grid * p;
     colour_by_origin(mesh, grid, holes, own);
     if (kept) *kept = std::move(own);
@@ -92,11 +154,13 @@ Mesh drawn_surface(const geometry::QuadGrid& grid, HoleDrawing holes, const geom
 Mesh drawn_animation(const animation::AnimatedFace& animated, const Face& neutral, HoleDrawing holes,
                      std::vector<std::uint32_t>* kept) {
     std::vector<std::uint32_t> own;
-    auto mesh = animation::to_mesh(animated, neutral, {.bridged = bridged_of(holes)}, &own);
-    colour_by_origin(mesh, neutral.grid, holes, own);
+    auto shown = neutral;
+    shown.grid = holes_alone(std::move(shown.grid));
+    auto mesh = animation::to_mesh(animated, shown, {.bridged = bridged_of(holes)}, &own);
+    colour_by_origin(mesh, shown.grid, holes, own);
     const bool may_tear = !animated.lip_sides.empty() || !animated.lid_sheets.empty();
     if (may_tear && holes != HoleDrawing::gap)
-        add_inside_of_mouth(mesh, animated, neutral, moved_vertices(neutral.grid, animated));
+        add_inside_of_mouth(mesh, animated, shown, moved_vertices(neutral.grid, animated));
     if (kept) *kept = std::move(own);
     return mesh;
 }

@@ -69,7 +69,7 @@ TEST_F(LabelFitTruth, the_energy_falls_and_no_label_strays) {
     const auto found = capture::fit_labels(faces.start, faces.labels, faces.target.surface(),
                                            capture::builtin_marker_set(), capture::SurfaceMinimiser::levenberg);
     EXPECT_LT(found.found.end.total, found.found.start.total);
-    // Four such pairs have 2.4 mm in the mean, each within 0.5 of that.
+    // Four such pairs have 2.4 mm in the mean.
     EXPECT_LT(mean_error_mm(found.labels), 3.0);
 }
 

@@ -51,6 +51,21 @@ TEST(NamedFigures, a_name_is_found_however_it_is_typed_and_what_is_left_out_says
     EXPECT_THAT(message_of([] { (void)named_figure("9-9"); }), HasSubstr("give one of 4-5, 4-6, 5-2"));
 }
 
+TEST(DrawnFaces, holes_and_cracks_are_filled_and_the_bays_of_the_rim_are_not) {
+    geometry::QuadGrid grid;
+    grid.rows = grid.cols = 20;
+    for (int row = 0; row < 20; ++row)
+        for (int col = 0; col < 20; ++col) grid.vertices_mm.emplace_back(col, row, 0);
+    grid.origin.assign(400, geometry::VertexOrigin::measured);
+    const auto bridge = [&](int row, int col) { grid.origin[grid.index(row, col)] = geometry::VertexOrigin::bridged; };
+    bridge(10, 10);                                      // a hole
+    for (int row = 17; row < 20; ++row) bridge(row, 2);  // a crack, one wide
+    for (int row = 0; row < 2; ++row)
+        for (int col = 3; col < 17; ++col) bridge(row, col);  // a bay, 14 wide
+    EXPECT_EQ(drawn_surface(grid, HoleDrawing::fill).vertices_mm.size(), 400U - 28U);
+    EXPECT_EQ(drawn_surface(grid, HoleDrawing::gap).vertices_mm.size(), 400U - 28U - 4U);
+}
+
 class FiguresOfAWorkspace : public test::WorkspaceTest<FiguresOfAWorkspace> {
 protected:
     static NamedFigureOptions two_people() {
