@@ -29,6 +29,7 @@
 #include "database/file_origin.h"
 #include "database/hidden_subjects.h"
 #include "database/known_databases.h"
+#include "geometry/rim_bays.h"
 #include "io/image.h"
 #include "io/json_values.h"
 #include "io/landmark_io.h"
@@ -170,7 +171,12 @@ std::vector<animation::ExampleModels> models_of(const ExpressionShelf& shelf, co
 /// The mesh at rest, and per vertex the vertex of the surface that it is.
 geometry::Mesh resting(const Character& character, const animation::MadeExamples& made,
                        std::vector<std::uint32_t>& source) {
-    if (character.face) return animation::resting_mesh(made.face, *character.face, {}, &source);
+    if (character.face) {
+        // A scan's holes would be seen through: they are bridged, as in figures.
+        auto face = *character.face;
+        face.grid = geometry::without_rim_bays(std::move(face.grid));
+        return animation::resting_mesh(made.face, face, {.bridged = geometry::BridgedVertices::keep}, &source);
+    }
     geometry::Mesh mesh;
     if (character.file) {
         mesh = character.file->mesh;

@@ -11,6 +11,7 @@
 #include "animation/face_export.h"
 #include "base/errors.h"
 #include "geometry/box.h"
+#include "geometry/rim_bays.h"
 #include "io/image.h"
 
 namespace mimik::report {
@@ -28,59 +29,6 @@ constexpr Colour mouth_colour = {74, 44, 42};
 
 geometry::BridgedVertices bridged_of(HoleDrawing holes) {
     return holes == HoleDrawing::gap ? geometry::BridgedVertices::leave_out : geometry::BridgedVertices::keep;
-}
-
-/// Bridged vertices that stand in a narrow gap of their row or column: a crack before an ear, say.
-std::vector<std::uint8_t> narrow_gaps(const geometry::QuadGrid& grid) {
-    constexpr int widest = 12;  // vertices: a centimetre or so
-    std::vector<std::uint8_t> narrow(grid.size(), 0);
-    const auto scan = [&](int lines, int length, const auto& vertex) {
-        for (int line = 0; line < lines; ++line) {
-            int last = -1;  // measured
-            for (int k = 0; k < length; ++k) {
-                const auto v = vertex(line, k);
-                if (!grid.inside(v)) last = -1;
-                if (!grid.measured(v)) continue;
-                if (last >= 0 && k - last - 1 <= widest)
-                    for (int gap = last + 1; gap < k; ++gap) narrow[vertex(line, gap)] = 1;
-                last = k;
-            }
-        }
-    };
-    scan(grid.rows, grid.cols, [&](int row, int col) { return grid.index(row, col); });
-    scan(grid.cols, grid.rows, [&](int col, int row) { return grid.index(row, col); });
-    return narrow;
-}
-
-/// Without what was bridged at the rim, between jaw and neck, say: the hull of the data closes that, and it is no hole.
-geometry::QuadGrid holes_alone(geometry::QuadGrid grid) {
-    using geometry::VertexOrigin;
-    const auto narrow = narrow_gaps(grid);
-    const auto neighbours = [&](std::uint32_t v) {
-        const int row = static_cast<int>(v) / grid.cols, col = static_cast<int>(v) % grid.cols;
-        std::array<std::int64_t, 4> all = {-1, -1, -1, -1};  // -1: beyond the grid
-        if (row > 0) all[0] = grid.index(row - 1, col);
-        if (row + 1 < grid.rows) all[1] = grid.index(row + 1, col);
-        if (col > 0) all[2] = grid.index(row, col - 1);
-        if (col + 1 < grid.cols) all[3] = grid.index(row, col + 1);
-        return all;
-    };
-    const auto outside = [&](std::int64_t v) { return v < 0 || !grid.inside(static_cast<std::size_t>(v)); };
-    std::vector<std::uint32_t> open;
-    for (std::uint32_t v = 0; v < grid.size(); ++v) {
-        const auto around = neighbours(v);
-        if (grid.origin[v] == VertexOrigin::bridged && std::any_of(around.begin(), around.end(), outside))
-            open.push_back(v);
-    }
-    while (!open.empty()) {
-        const auto v = open.back();
-        open.pop_back();
-        if (grid.origin[v] != VertexOrigin::bridged || narrow[v]) continue;
-        grid.origin[v] = VertexOrigin::outside;
-        for (const auto other : neighbours(v))
-            if (other >= 0) open.push_back(static_cast<std::uint32_t>(other));
-    }
-    return grid;
 }
 
 void colour_by_origin(Mesh& mesh, const geometry::QuadGrid& grid, HoleDrawing holes,
@@ -144,7 +92,7 @@ void add_inside_of_mouth(Mesh& mesh, const animation::AnimatedFace& animated, co
 Mesh drawn_surface(const geometry::QuadGrid& grid, HoleDrawing holes, const geometry::Transform& drawn_from_grid,
                    std::vector<std::uint32_t>* kept) {
     std::vector<std::uint32_t> own;
-    auto mesh = geometry::to_mesh(holes_alone(grid), bridged_of(holes), &own);
+    auto mesh = geometry::to_mesh(geometry::without_rim_bays(grid), bridged_of(holes), &own);
     for (auto& p : mesh.vertices_mm) p = drawn_from_grid * p;
     colour_by_origin(mesh, grid, holes, own);
     if (kept) *kept = std::move(own);
@@ -155,7 +103,7 @@ Mesh drawn_animation(const animation::AnimatedFace& animated, const Face& neutra
                      std::vector<std::uint32_t>* kept) {
     std::vector<std::uint32_t> own;
     auto shown = neutral;
-    shown.grid = holes_alone(std::move(shown.grid));
+    shown.grid = geometry::without_rim_bays(std::move(shown.grid));
     auto mesh = animation::to_mesh(animated, shown, {.bridged = bridged_of(holes)}, &own);
     colour_by_origin(mesh, shown.grid, holes, own);
     const bool may_tear = !animated.lip_sides.empty() || !animated.lid_sheets.empty();
