@@ -109,7 +109,8 @@ cv::dnn::MatShape input_of(std::string_view model, const std::string& file) {
         if (fields.number == 11 &&
             std::find(constants.begin(), constants.end(), part_of(fields.bytes, 1)) == constants.end())
             inputs.push_back(sides_of(fields.bytes));
-    const auto shape = inputs.size() == 1 ? inputs.front() : cv::dnn::MatShape();
+    auto shape = inputs.size() == 1 ? inputs.front() : cv::dnn::MatShape();
+    if (shape.size() == 4 && shape[0] == 0) shape[0] = 1;  // any number of pictures: one
     const bool fits = shape.size() == 4 && shape[0] == 1 && (shape[1] == 1 || shape[1] == 3) && shape[2] >= 1 &&
                       shape[2] <= most_side && shape[3] >= 1 && shape[3] <= most_side;
     if (!fits)

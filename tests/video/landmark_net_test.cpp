@@ -75,6 +75,11 @@ TEST(LandmarkNet, a_grey_picture_and_a_crop_beyond_the_frame_are_as_good) {
     ASSERT_TRUE(points);
     EXPECT_NEAR((*points)[0].x(), -100 + 10 * 102 / 255.0, 1e-4);  // single precision
     EXPECT_FALSE(net.points(frame, {Pixel(0, 0), 0}));
+    tiny.fixed_count = false;  // as most nets are exported
+    LandmarkNet any(written("any.onnx", onnx_file(tiny)));
+    const auto again = any.points(frame, {Pixel(-100, -100), 10});
+    ASSERT_TRUE(again);
+    EXPECT_EQ((*again)[0], (*points)[0]);
 }
 
 TEST(LandmarkNet, files_that_are_no_net_of_68_points_are_refused_by_what_is_wrong) {

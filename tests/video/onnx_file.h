@@ -38,6 +38,7 @@ struct TinyNet {
     int depth = 3, height = 4, width = 4, values = 136;
     std::vector<float> weights;    ///< values x (depth height width), a row per value; empty: all 0
     std::vector<float> constants;  ///< per value; empty: all 0
+    bool fixed_count = true;       ///< false: it takes any number of pictures
     bool fixed_size = true;        ///< false: height and width have names in the place of numbers
 };
 
@@ -78,7 +79,8 @@ inline std::string onnx_file(const TinyNet& net) {
                   tensor("weights", {net.values, pixels},
                          floats(net.weights, static_cast<std::size_t>(net.values) * static_cast<std::size_t>(pixels))))
             .part(5, tensor("constants", {net.values}, floats(net.constants, static_cast<std::size_t>(net.values))))
-            .part(11, value("picture", {1, net.depth, net.fixed_size ? net.height : 0, net.fixed_size ? net.width : 0}))
+            .part(11, value("picture", {net.fixed_count ? 1 : 0, net.depth, net.fixed_size ? net.height : 0,
+                                        net.fixed_size ? net.width : 0}))
             .part(12, value("points", {1, net.values}));
     return ProtobufText().number(1, 7).part(8, ProtobufText().text(1, "").number(2, 11)).part(7, graph).bytes();
 }
