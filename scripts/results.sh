@@ -60,7 +60,7 @@ page() {  # world, title
   experiment "$world" thesis_on_itself 0
   echo "# Measured: $2"
   echo
-  echo "Written by \`scripts/results.sh $world\`, whole: what is changed by hand here is lost. $("$mimik" version | head -n 1)"
+  echo "Written by \`scripts/results.sh $world\`, whole: what is changed by hand here is lost. Mimik $("$mimik" version | awk 'NR==1{v=$2} NR==2{print v ", commit " $2}')"
   printf '\n## Every pair, every method\n\n`experiments/thesis-full.toml`\n\n'
   tables "$world/thesis-full-0"
   printf '\n## Each source on itself\n\n`experiments/thesis_on_itself.toml`\n\n'
