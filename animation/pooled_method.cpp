@@ -118,6 +118,7 @@ std::vector<Vector> near_motion(std::span<const PooledSource> sources, const Poo
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
     const double width_mm = std::max(sorted[sorted.size() / 2], 1e-6);
     std::vector<double> weights;
+    weights.reserve(distances_mm.size());
     for (const double distance : distances_mm) weights.push_back(std::exp(-0.5 * std::pow(distance / width_mm, 2)));
     return weighted_motion(sources, weights);
 }

@@ -24,7 +24,7 @@ using mimik_residual_function = double(void* problem, std::size_t term, const do
                                        double* const* gradients);
 
 /// Residuals that depend on a few blocks of three variables each.
-struct mimik_residuals {
+struct mimik_residuals {  // NOLINT(readability-identifier-naming): C
     std::size_t blocks, terms;
     const std::uint32_t* first;   ///< terms + 1: where in `block` those of a term begin
     const std::uint32_t* block;   ///< their numbers

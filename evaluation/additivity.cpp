@@ -150,6 +150,7 @@ std::vector<Expression> combined_expressions(const Workspace& workspace, const F
             found.emplace(expression.code(), expression);
     }
     std::vector<Expression> all;
+    all.reserve(found.size());
     for (auto& [code, expression] : found) all.push_back(expression);
     return all;
 }

@@ -57,7 +57,6 @@ double hold(std::size_t curve) {
     switch (static_cast<FaceCurve>(curve)) {
         case nostril_right:
         case nostril_left:
-            return 0.08;
         case lid_right_upper:
         case lid_right_lower:
         case lid_left_upper:
@@ -214,6 +213,7 @@ private:
         const cv::Mat image(patch_height_px, patch_width_px, CV_8U, const_cast<std::uint8_t*>(grey.data()));  // NOLINT
         cv::goodFeaturesToTrack(image, corners, 36, 0.01, 6, mask, 5);
         std::vector<Pixel> points;
+        points.reserve(corners.size());
         for (const auto& c : corners) points.emplace_back(c.x, c.y);
         return points;
     }

@@ -67,7 +67,7 @@ private:
 
     [[nodiscard]] std::optional<TrackedFace> carry_on(const io::Image& frame) {
         if (++age_ % look_every_frames == 0 && !look_again(frame)) return std::nullopt;
-        const auto face = face_in(frame, *box_);
+        auto face = face_in(frame, *box_);
         if (!face) return std::nullopt;
         const auto now = seen(frame, *face);
         const auto look = watch_.look(now.grey, now.lips);
