@@ -75,14 +75,14 @@ grep -q "^  thesis-half  *\*" methods.txt && ! grep "^  deformation-transfer  *\
 commands=$("$mimik" --help | sed -n '/^Commands/,/^Options/s/^  \([a-z]*\) .*/\1/p')
 [ "$(echo $commands)" = "synthesize scans preprocess register animate model evaluate run merge report verify compare tune sensitivity additivity panels figures figure warp distance mocap capture examples perform live regions catalogue version help" ] || fail "order: $commands"
 for command in $commands; do
-  "$mimik" $command --help | grep -q "^Usage: mimik $command" || fail "usage of $command"
-  [ "$command" = help ] || "$mimik" $command --help | grep -q -- "--json" || fail "--json of $command"
+  "$mimik" $command --help | grep "^Usage: mimik $command" >/dev/null || fail "usage of $command"
+  [ "$command" = help ] || "$mimik" $command --help | grep -e "--json" >/dev/null || fail "--json of $command"
 done
 "$mimik" mocap convert --help >help.txt
 "$mimik" help mocap convert | cmp - help.txt
 claim "help is the same in every way in which it is asked for, commands stand in the order of work"
 
-"$mimik" version | grep -q '^compiler  *[A-Z]' && "$mimik" version | grep -q '^  VTK  *[0-9]'
+"$mimik" version | grep '^compiler  *[A-Z]' >/dev/null && "$mimik" version | grep '^  VTK  *[0-9]' >/dev/null
 "$mimik" version --json >version.json
 grep -q '"schema": 1' version.json && grep -q "\"mimik\": \"$("$mimik" -V)\"" version.json && grep -q '"Eigen": "3' version.json
 claim "the program says of what it was built"
@@ -99,9 +99,9 @@ fi
 for command in $commands; do
   grep -q "^.SS $command\$" man.txt || fail "manual of $command"
   for option in $("$mimik" $command --help | grep -oE '^  (-[a-zA-Z], )?--[a-z0-9-]+' | grep -oE -- '--[a-z0-9-]+'); do
-    sed -n "/^.SS $command\$/,/^.S[SH] /p" man.txt | grep -qF -- "$option" || fail "$option of $command is not in the manual"
-    grep "^        $command) words=" bash.txt | grep -qF -- "$option" || fail "$option of $command is not completed in bash"
-    sed -n "/^    $command)\$/,/;;/p" zsh.txt | grep -qF -- "'*$option[" || fail "$option of $command is not completed in zsh"
+    sed -n "/^.SS $command\$/,/^.S[SH] /p" man.txt | grep -F -- "$option" >/dev/null || fail "$option of $command is not in the manual"
+    grep "^        $command) words=" bash.txt | grep -F -- "$option" >/dev/null || fail "$option of $command is not completed in bash"
+    sed -n "/^    $command)\$/,/;;/p" zsh.txt | grep -F -- "'*$option[" >/dev/null || fail "$option of $command is not completed in zsh"
   done
 done
 ! grep -nE '^\.[^A-Z]' man.txt || fail "a line that roff would take for a command"
