@@ -117,6 +117,16 @@ void Canvas::text(double x, int baseline_y, const std::string& line, int size_px
         }
 }
 
+void Canvas::outlined_text(double x, int baseline_y, const std::string& line, int size_px, double anchor,
+                           const Colour& colour) {
+    constexpr Colour white = {255, 255, 255};
+    const int rim_px = std::max(1, size_px / 12);
+    for (const int across : {-rim_px, 0, rim_px})
+        for (const int up : {-rim_px, 0, rim_px})
+            if (across != 0 || up != 0) text(x + across, baseline_y - up, line, size_px, anchor, white);
+    text(x, baseline_y, line, size_px, anchor, colour);
+}
+
 int text_width(const std::string& line, int size_px) {
     const auto box = text_box(line, size_px);
     return line.empty() ? 0 : box[1] - box[0] + 1;

@@ -20,6 +20,9 @@ public:
     /// One line; `baseline_y` is the row the letters stand on. `anchor` 0: x is the left end, 0.5 the middle, 1 the
     /// right.
     void text(double x, int baseline_y, const std::string& line, int size_px, double anchor, const Colour& colour);
+    /// The same with a thin white rim, so that it can be read on dark skin, too.
+    void outlined_text(double x, int baseline_y, const std::string& line, int size_px, double anchor,
+                       const Colour& colour);
 
     [[nodiscard]] const io::Image& image() const { return image_; }
 

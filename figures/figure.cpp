@@ -339,9 +339,10 @@ void draw_numbers(Canvas& canvas, const Panel& panel, const PanelCamera& camera,
                 std::any_of(set.positions_mm.begin(), set.positions_mm.begin() + static_cast<std::ptrdiff_t>(k),
                             [&](const Point& p) { return (p - set.positions_mm[k]).norm() < 2 * set.radius_mm; });
             const bool to_the_right = (seen.x() >= 0) != shared;
-            canvas.text(left + figure.panel_width_px / 2.0 + seen.x() + (to_the_right ? gap : -gap),
-                        top + static_cast<int>(std::lround(figure.panel_height_px / 2.0 - seen.y() - 0.1 * font)),
-                        std::to_string(k + 1), font, to_the_right ? 0 : 1, ink);
+            canvas.outlined_text(
+                left + figure.panel_width_px / 2.0 + seen.x() + (to_the_right ? gap : -gap),
+                top + static_cast<int>(std::lround(figure.panel_height_px / 2.0 - seen.y() - 0.1 * font)),
+                std::to_string(k + 1), font, to_the_right ? 0 : 1, ink);
         }
     }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,8 @@
 #include "base/errors.h"
 #include "geometry/box.h"
 #include "geometry/rim_bays.h"
+#include "geometry/topology.h"
+#include "geometry/weld.h"
 #include "io/image.h"
 
 namespace mimik::report {
@@ -97,6 +100,42 @@ Mesh drawn_surface(const geometry::QuadGrid& grid, HoleDrawing holes, const geom
     colour_by_origin(mesh, grid, holes, own);
     if (kept) *kept = std::move(own);
     return mesh;
+}
+
+Mesh largest_part(const Mesh& mesh) {
+    const auto part = geometry::connected_parts(mesh.vertices_mm, geometry::triangulate(mesh.faces));
+    std::map<std::uint32_t, std::size_t> sizes;
+    for (const auto p : part)
+        if (p != geometry::not_welded) ++sizes[p];
+    if (sizes.empty()) return mesh;
+    const auto largest = std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
+                             return a.second < b.second;
+                         })->first;
+    Mesh result;
+    for (const auto& attribute : mesh.attributes)
+        result.attributes.push_back({attribute.name, attribute.components, {}});
+    std::vector<std::uint32_t> place(mesh.vertices_mm.size(), 0);
+    for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+        if (part[v] != largest) continue;
+        place[v] = static_cast<std::uint32_t>(result.vertices_mm.size());
+        result.vertices_mm.push_back(mesh.vertices_mm[v]);
+        if (!mesh.colours.empty()) result.colours.push_back(mesh.colours[v]);
+        if (!mesh.texture_coordinates.empty()) result.texture_coordinates.push_back(mesh.texture_coordinates[v]);
+        for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
+            const auto first =
+                mesh.attributes[a].values.begin() + static_cast<std::ptrdiff_t>(v) * mesh.attributes[a].components;
+            auto& values = result.attributes[a].values;
+            values.insert(values.end(), first, first + mesh.attributes[a].components);
+        }
+    }
+    std::vector<std::uint32_t> corners;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        if (part[mesh.faces[f].front()] != largest) continue;
+        corners.clear();
+        for (const auto v : mesh.faces[f]) corners.push_back(place[v]);
+        result.faces.add(corners);
+    }
+    return result;
 }
 
 Mesh drawn_animation(const animation::AnimatedFace& animated, const Face& neutral, HoleDrawing holes,

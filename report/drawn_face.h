@@ -20,6 +20,10 @@ namespace mimik::report {
                                            const geometry::Transform& drawn_from_grid = geometry::Transform::Identity(),
                                            std::vector<std::uint32_t>* kept = nullptr);
 
+/// What hangs together with most vertices: where few of the people of an average face had data, scraps of it lie about.
+/// @param mesh  of a grid: texture coordinates, if any, one per vertex
+[[nodiscard]] geometry::Mesh largest_part(const geometry::Mesh& mesh);
+
 /// A neutral face, moved. Where lips or lids part, the surface between them is drawn dark, as the inside of a mouth,
 /// unless holes are gaps. Vertices of the mesh beyond `kept` are of that dark surface.
 [[nodiscard]] geometry::Mesh drawn_animation(const animation::AnimatedFace& animated,

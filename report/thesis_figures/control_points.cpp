@@ -27,10 +27,16 @@ std::vector<ShownControl> placed(const FigureCast& cast, const preprocessing::Fa
     return shown;
 }
 
+/// Some control points lie on landmarks: their balls are the greater ones, so that none is hidden.
 void add_markers(figures::Panel& panel, const geometry::Landmarks& landmarks,
                  const std::vector<ShownControl>& controls) {
+    constexpr double landmark_radius_mm = 1.4, control_radius_mm = 2.2;
     panel.markers.push_back(landmark_markers(landmarks));
-    for (auto& set : control_markers(controls)) panel.markers.push_back(std::move(set));
+    panel.markers.back().radius_mm = landmark_radius_mm;
+    for (auto& set : control_markers(controls)) {
+        set.radius_mm = control_radius_mm;
+        panel.markers.push_back(std::move(set));
+    }
 }
 
 FigurePlan muscle_points(const FigureCast& cast) {

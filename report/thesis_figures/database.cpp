@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -86,9 +87,11 @@ FigurePlan average_face(const FigureCast& cast) {
     const auto& average = cast.workspace().average();
     FigurePlan plan;
     plan.picture = page_of(3, "The average face");
-    const auto mesh = drawn_surface(average.grid, HoleDrawing::fill);
-    for (const auto* view : {"front", "three-quarter-left", "left"}) {
-        auto panel = face_panel(mesh, geometry::Point::Zero(), view);
+    const auto mesh = largest_part(drawn_surface(average.grid, HoleDrawing::fill));
+    for (const auto& [view, words] :
+         {std::pair("front", "front"), std::pair("three-quarter-left", "three-quarter view"),
+          std::pair("left", "profile from the subject's left")}) {
+        auto panel = face_panel(mesh, geometry::Point::Zero(), words);
         panel.centre_mm.reset();
         panel.view = figures::parse_view(view);
         plan.picture.panels.push_back(std::move(panel));

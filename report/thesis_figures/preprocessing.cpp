@@ -147,7 +147,7 @@ FigurePlan normalisation(const FigureCast& cast) {
             panels.push_back(std::move(panel));
         }
     };
-    add(drawn_surface(average.grid, HoleDrawing::fill), "average face model");
+    add(largest_part(drawn_surface(average.grid, HoleDrawing::fill)), "average face model");
     for (int k = 2; k < columns; ++k) panels.emplace_back();
     for (const bool after : {false, true})
         for (const auto& [what, face] : faces) {

@@ -94,12 +94,12 @@ FigurePlan five_point_surface(const FigureCast&) {
         panel.view = {.yaw_deg = 24, .pitch_deg = 34};
         panel.centre_mm = Point(0, 14, 0);
         panel.markers.push_back({.name = "control points",
-                                 .colour = figures::muscle_colour,
+                                 .colour = figures::landmark_colour,
                                  .radius_mm = 2.6,
                                  .positions_mm = warped ? target : source});
         panel.caption = warped ? "the patch, warped by them" : "a patch and its five control points";
         if (!warped) {
-            figures::ArrowSet ways{.name = "where they go", .colour = figures::landmark_colour, .radius_mm = 0.8};
+            figures::ArrowSet ways{.name = "displacements"};
             for (std::size_t k = 0; k < source.size(); ++k) ways.arrows.push_back({source[k], target[k]});
             panel.arrows.push_back(ways);
         }

@@ -313,6 +313,23 @@ TEST(Render, a_legend_adds_a_line_with_the_colours_of_the_sets) {
     EXPECT_GT(red, 20U);
 }
 
+TEST(Render, a_number_beside_a_marker_has_a_white_rim_on_dark_skin) {
+    SKIP_WITHOUT_RENDERER();
+    Panel panel{.mesh = square(100)};
+    panel.mesh.colours.assign(4, {40, 30, 30});
+    panel.markers = {{"landmarks", landmark_colour, 2, {geometry::Point(10, 10, 1)}}};
+    const auto whites = [](const Figure& figure) {
+        const Image image = render(figure);
+        int count = 0;
+        for (int side = -40; side < 40; ++side)
+            for (int up = -40; up < 40; ++up) count += at_mm(image, figure, side, up) == white;
+        return count;
+    };
+    EXPECT_EQ(whites(figure_of(panel)), 0);
+    panel.markers[0].numbered = true;
+    EXPECT_GT(whites(figure_of(panel)), 10);  // the rim of a '1' of 13 pixels
+}
+
 TEST(Render, an_empty_panel_is_a_gap) {
     SKIP_WITHOUT_RENDERER();
     Figure figure = figure_of({.mesh = square(100)});

@@ -66,6 +66,23 @@ TEST(DrawnFaces, holes_and_cracks_are_filled_and_the_bays_of_the_rim_are_not) {
     EXPECT_EQ(drawn_surface(grid, HoleDrawing::gap).vertices_mm.size(), 400U - 28U - 4U);
 }
 
+TEST(DrawnFaces, scraps_that_hang_on_nothing_are_left_out_of_the_largest_part) {
+    geometry::QuadGrid grid;
+    grid.rows = grid.cols = 20;
+    for (int row = 0; row < 20; ++row)
+        for (int col = 0; col < 20; ++col) grid.vertices_mm.emplace_back(col, row, 0);
+    grid.origin.assign(400, geometry::VertexOrigin::measured);
+    for (int row = 0; row < 20; ++row) grid.origin[grid.index(row, 3)] = geometry::VertexOrigin::outside;
+    const auto whole = drawn_surface(grid, HoleDrawing::fill);
+    ASSERT_EQ(whole.vertices_mm.size(), 20U * 19U);  // all but the column outside, which parts a scrap of 3 columns
+    const auto part = largest_part(whole);
+    EXPECT_EQ(part.vertices_mm.size(), 20U * 16U);
+    EXPECT_EQ(part.colours.size(), part.vertices_mm.size());
+    EXPECT_EQ(part.faces.size(), 19U * 15U);
+    for (const auto& p : part.vertices_mm) EXPECT_GT(p.x(), 3.5);
+    EXPECT_TRUE(largest_part(geometry::Mesh{}).vertices_mm.empty());
+}
+
 class FiguresOfAWorkspace : public test::WorkspaceTest<FiguresOfAWorkspace> {
 protected:
     static NamedFigureOptions two_people() {
@@ -110,6 +127,18 @@ TEST_F(FiguresOfAWorkspace, two_people_make_a_page_of_six_faces_without_a_hole_i
         const int middle = margin + col * (200 + margin) + 100;
         // The nose and what is about it: a face of 200 pixels fills them, whatever the title's height.
         EXPECT_GT(drawn_share(image, middle - 30, rows_end - 120 - 30, 60, 60), 0.98) << col;
+    }
+}
+
+TEST_F(FiguresOfAWorkspace, a_control_point_is_greater_than_a_landmark_that_it_may_lie_on) {
+    const FigureCast cast(*workspace_, facs::builtin_catalogue(), two_people());
+    const auto picture = named_figure("5-8").build(cast).picture;
+    ASSERT_EQ(picture.panels.size(), 8U);
+    for (const auto& panel : picture.panels) {
+        ASSERT_EQ(panel.markers.size(), 2U) << panel.caption;
+        EXPECT_EQ(panel.markers[0].name, "landmarks");
+        // Both are marked to half a millimetre, so a landmark may stand out by that.
+        EXPECT_GT(panel.markers[1].radius_mm, panel.markers[0].radius_mm + 0.5);
     }
 }
 
