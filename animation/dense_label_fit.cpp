@@ -50,6 +50,18 @@ Part about_labels(std::span<const Point> vertices_mm, std::span<const Triangle> 
     return part;
 }
 
+/// A label's own triangle takes part, or one beside it.
+void check_bound(const std::vector<geometry::SurfacePoint>& bound, const std::vector<std::string>& names,
+                 const DenseLabelFitOptions& options) {
+    constexpr double most_off_mm = 5;
+    for (std::size_t k = 0; k < bound.size(); ++k)
+        if (bound[k].distance_mm > most_off_mm)
+            throw InputError(
+                fmt::format("'{}' lies {:.1f} mm off the part of the reference within {:g} mm of the labels; the "
+                            "triangles of the reference are too large, or it is off its mesh: take a finer mesh",
+                            names[k], bound[k].distance_mm, options.around_mm));
+}
+
 }  // namespace
 
 void DenseLabelFitOptions::check() const {
@@ -70,6 +82,7 @@ DenselyFittedLabels fit_labels_densely(const capture::LabelStart& start, std::sp
     const auto part = about_labels(reference_mm, reference_triangles, labels_mm, options.around_mm);
     const geometry::SurfaceIndex skin(part.vertices_mm, part.triangles);
     const auto bound = skin.closest(labels_mm);
+    check_bound(bound, start.names, options);
     std::vector<preprocessing::FitMark> marks;
     for (std::size_t k = 0; k < bound.size(); ++k)
         if (start.by_hand[k] != 0)
@@ -81,7 +94,7 @@ DenselyFittedLabels fit_labels_densely(const capture::LabelStart& start, std::sp
     if (fit.matched_share < options.least_matched)
         throw NumericalError(
             fmt::format("{:.0f} % of the reference came to lie on the target, and {:.0f} % are the "
-                        "least: place the points anew, or more of them",
+                        "least: place the points anew, or more of them, all over the face",
                         100 * fit.matched_share, 100 * options.least_matched));
     DenselyFittedLabels result;
     std::vector<geometry::Landmark> list;

@@ -6,6 +6,7 @@
 
 #include "animation/animate.h"
 #include "animation/dense_field.h"
+#include "base/quantile.h"
 #include "modeling/expression_model.h"
 #include "preprocessing/kept_registrations.h"
 
@@ -114,9 +115,7 @@ std::vector<Vector> near_motion(std::span<const PooledSource> sources, const Poo
             square += (source.rest_mm[v] - task.rest_mm[v]).squaredNorm();
         distances_mm.push_back(std::sqrt(square / static_cast<double>(task.rest_mm.size())));
     }
-    auto sorted = distances_mm;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    const double width_mm = std::max(sorted[sorted.size() / 2], 1e-6);
+    const double width_mm = std::max(base::median(distances_mm), 1e-6);
     std::vector<double> weights;
     weights.reserve(distances_mm.size());
     for (const double distance : distances_mm) weights.push_back(std::exp(-0.5 * std::pow(distance / width_mm, 2)));

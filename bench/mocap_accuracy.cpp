@@ -317,6 +317,7 @@ void measure_world(const std::string& name, const std::vector<Actor>& actors, co
         }
         fmt::print("\n");
     }
+    fmt::print("\n");
     for (const auto method : {MarkerMethod::open_bones, MarkerMethod::bones, MarkerMethod::units_bones})
         for (std::size_t k = 0; k < actors.size(); ++k) {
             const auto& units = actors[k].units;
@@ -325,7 +326,7 @@ void measure_world(const std::string& name, const std::vector<Actor>& actors, co
             if (jaw == units.end() || raiser == units.end()) continue;
             const auto down = static_cast<std::size_t>(jaw - units.begin());
             const auto up = static_cast<std::size_t>(raiser - units.begin());
-            fmt::print("leakage {} {}: lower to upper {:.1f} %, upper to lower (AU 10) {:.1f} %\n", actors[k].name,
+            fmt::print("- leakage {} {}: lower to upper {:.1f} %, upper to lower (AU 10) {:.1f} %\n", actors[k].name,
                        animation::to_string(method), 100 * leakage(actors[k], rigs[k], method, down, true),
                        100 * leakage(actors[k], rigs[k], method, up, false));
         }

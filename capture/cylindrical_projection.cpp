@@ -33,10 +33,14 @@ std::optional<HeadCylinder> head_cylinder(std::span<const Point> points_mm, cons
                         std::sqrt(std::max(0.0, circle[2] + circle.head<2>().squaredNorm()))};
 }
 
+Vector away_from_axis(const HeadCylinder& cylinder, const Point& point_mm) {
+    const Vector from_axis = point_mm - cylinder.on_axis_mm;
+    return from_axis - from_axis.dot(cylinder.up) * cylinder.up;
+}
+
 std::optional<SurfacePoint> project_from_axis(const HeadCylinder& cylinder, const Point& point_mm,
                                               const geometry::SurfaceIndex& surface, double most_mm) {
-    const Vector from_axis = point_mm - cylinder.on_axis_mm;
-    const Vector level = from_axis - from_axis.dot(cylinder.up) * cylinder.up;
+    const Vector level = away_from_axis(cylinder, point_mm);
     const double length = level.norm();
     if (!(length > 0)) return std::nullopt;
     const Vector outwards = level / length;

@@ -20,8 +20,11 @@ struct HeadCylinder {
 [[nodiscard]] std::optional<HeadCylinder> head_cylinder(std::span<const geometry::Point> points_mm,
                                                         const geometry::Vector& up);
 
-/// Where the ray from the axis through a point passes the surface from within, nearest to the point. Empty: nowhere
-/// within `most_mm` of it.
+/// The part of a point's place that is level: from the axis to the point.
+[[nodiscard]] geometry::Vector away_from_axis(const HeadCylinder& cylinder, const geometry::Point& point_mm);
+
+/// Where the ray from the axis through a point passes the surface from within: the nearer of the first hits before and
+/// behind the point. Empty: neither passes from within, within `most_mm` of it.
 [[nodiscard]] std::optional<geometry::SurfacePoint> project_from_axis(const HeadCylinder& cylinder,
                                                                       const geometry::Point& point_mm,
                                                                       const geometry::SurfaceIndex& surface,

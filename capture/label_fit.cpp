@@ -21,6 +21,45 @@ using geometry::Vector;
 
 namespace {
 
+/// Root mean square of the distances from the middle.
+double spread_mm(std::span<const Point> points) {
+    Point middle = Point::Zero();
+    for (const auto& p : points) middle += p / static_cast<double>(points.size());
+    double squares = 0;
+    for (const auto& p : points) squares += (p - middle).squaredNorm();
+    return std::sqrt(squares / static_cast<double>(points.size()));
+}
+
+/// Faces of people differ by less than a factor of two; units by more.
+void check_sizes(std::span<const Point> from, std::span<const Point> to) {
+    constexpr double most = 2;
+    const double times = spread_mm(to) / spread_mm(from);
+    if (times <= most && times >= 1 / most) return;
+    throw InputError(fmt::format(
+        "the points lie {:.3g} times as far apart as the same labels of the reference; mend the unit of one "
+        "of the two meshes",
+        times));
+}
+
+/// Three quarters of the labels lie where the surface looks away from the axis of the head, or it is turned inside out.
+void check_winding(const std::optional<HeadCylinder>& cylinder, std::span<const Point> points,
+                   const geometry::SurfaceIndex& surface, const char* whose) {
+    constexpr std::size_t least = 10;  // fewer do not say where the axis is
+    if (!cylinder || points.size() < least) return;
+    std::size_t outwards = 0;
+    for (const auto& p : points) {
+        const auto& t = surface.triangles()[surface.closest(p).triangle];
+        const auto at = surface.vertices_mm();
+        const Vector normal = (at[t[1]] - at[t[0]]).cross(at[t[2]] - at[t[0]]);
+        outwards += normal.dot(away_from_axis(*cylinder, p)) >= 0 ? 1 : 0;
+    }
+    if (4 * outwards >= points.size()) return;
+    throw InputError(
+        fmt::format("{} is turned inside out: at {} of {} points its faces look into the head; turn the "
+                    "order of their corners round (MeshLab: Invert Faces Orientation)",
+                    whose, points.size() - outwards, points.size()));
+}
+
 /// Every point of a list has to lie on its surface. @param whose  "the reference", "the target"
 void check_on_surface(const Landmarks& marks, const geometry::SurfaceIndex& surface, double most_off_mm,
                       const char* whose) {
@@ -78,6 +117,13 @@ Landmarks LabelStart::labels() const {
     return Landmarks(std::move(list));
 }
 
+void check_reference(const geometry::SurfaceIndex& reference, const Landmarks& labels, const LabelFitOptions& options) {
+    check_on_surface(labels, reference, options.most_off_mm, "the reference");
+    std::vector<Point> points;
+    for (const auto& label : labels.all()) points.push_back(label.position_mm);
+    check_winding(head_cylinder(points, Vector::UnitY()), points, reference, "the reference");
+}
+
 LabelStart start_labels(const geometry::SurfaceIndex& reference, const Landmarks& labels,
                         const geometry::SurfaceIndex& target, const Landmarks& points, const LabelFitOptions& options) {
     options.check();
@@ -88,7 +134,7 @@ LabelStart start_labels(const geometry::SurfaceIndex& reference, const Landmarks
             fmt::format("{} placed by hand; {} are the least that say a map, and {} to 12 are well: place "
                         "more, all over the face",
                         base::counted(points.size(), "point is", "points are"), least, enough));
-    check_on_surface(labels, reference, options.most_off_mm, "the reference");
+    check_reference(reference, labels, options);
     check_on_surface(points, target, options.most_off_mm, "the target");
     std::vector<Point> from, to;
     std::vector<std::string> paired;
@@ -97,6 +143,7 @@ LabelStart start_labels(const geometry::SurfaceIndex& reference, const Landmarks
         to.push_back(target.closest(point.position_mm).position_mm);
         paired.push_back(point.name);
     }
+    check_sizes(from, to);
     LabelStart start{geometry::RadialBasisMap::fit(from, to, options.basis, paired), {}, {}, {}, {}, 0, {}};
     if (points.size() < enough)
         start.remarks.push_back(fmt::format("{} placed by hand; {} to 12 all over the face fit better",
@@ -106,6 +153,7 @@ LabelStart start_labels(const geometry::SurfaceIndex& reference, const Landmarks
         start.warped_mm.push_back(start.target_from_reference(label.position_mm));
     }
     const auto cylinder = head_cylinder(start.warped_mm, up_on_target(from, to));
+    check_winding(cylinder, start.warped_mm, target, "the target");
     for (std::size_t k = 0; k < start.names.size(); ++k) {
         const auto* point = points.find(start.names[k]);
         start.by_hand.push_back(point ? 1 : 0);

@@ -24,7 +24,9 @@ enum class LabelFitRest {
 [[nodiscard]] const char* to_string(LabelFitRest rest);  ///< "warped", "reference"
 
 struct LabelFitOptions {
-    geometry::RadialBasisOptions basis = {};
+    /// Points that lie so nearly in one plane say nothing of what is before and behind it: four that were 0.1 mm off a
+    /// plane put labels 98 mm away.
+    geometry::RadialBasisOptions basis = {.min_thickness_ratio = 0.02};
     /// A hand-placed point, or a label of the reference, that lies farther off its surface is refused.
     double most_off_mm = 5.0;
     /// A label that the projection moves farther goes to the nearest point of the surface instead.
@@ -57,9 +59,15 @@ struct LabelStart {
     [[nodiscard]] geometry::Landmarks labels() const;
 };
 
+/// Whether labels lie on their own mesh, and it looks outwards. start_labels() asks the same.
+/// @throws InputError naming the label, or what is turned inside out.
+void check_reference(const geometry::SurfaceIndex& reference, const geometry::Landmarks& labels,
+                     const LabelFitOptions& options = {});
+
 /// @param points  some of the labels on the target, by their names
 /// @throws InputError naming a point that no label is called as, one that lies off the surface, and how many are
-/// missing; NumericalError if they lie in one plane.
+/// missing; if one mesh is more than twice as large as the other by the points (another unit), or turned inside out;
+/// NumericalError if the points lie nearly in one plane.
 [[nodiscard]] LabelStart start_labels(const geometry::SurfaceIndex& reference, const geometry::Landmarks& labels,
                                       const geometry::SurfaceIndex& target, const geometry::Landmarks& points,
                                       const LabelFitOptions& options = {});

@@ -226,9 +226,13 @@ std::vector<std::optional<std::size_t>> columns_of_channels(const ShapeMotion& m
     }
     if (found == motion.shapes.size()) return columns;
     for (std::size_t k = 0; k < motion.shapes.size(); ++k)
-        if (std::find(columns.begin(), columns.end(), k) == columns.end())
+        if (std::find(columns.begin(), columns.end(), k) == columns.end()) {
+            if (motion.find(motion.shapes[k]) != k)
+                throw InputError(
+                    fmt::format("{} is there twice; keep one of the two", base::in_quotes(motion.shapes[k])));
             throw InputError(fmt::format("{} is none of the 61 channels of Live Link Face; leave it out",
                                          base::in_quotes(motion.shapes[k])));
+        }
     return columns;
 }
 

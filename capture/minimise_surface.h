@@ -28,9 +28,11 @@ struct MinimiseSurfaceOptions {
     double first_width_mm = 1.0;
     double last_width_mm = 0.01;
     int stages = 5;
-    int most_iterations = 50;       ///< of each stage
-    double least_change = 1e-6;     ///< a stage ends when its sum falls by a smaller share
-    double first_step_mm = 2.0;     ///< simplex: how far its first corners are from the start
+    int most_iterations = 50;    ///< of each stage
+    double least_change = 1e-6;  ///< a stage ends when its sum falls by a smaller share
+    /// Simplex: length of its first steps along each coordinate. As OpenCV begins it, the start is the corners' middle:
+    /// the first corner is half a step off in every coordinate at once.
+    double first_step_mm = 2.0;
     int most_evaluations = 100000;  ///< simplex
     /// Simplex: it ends when its corners' energies differ by less.
     double least_difference = 1e-9;
@@ -52,7 +54,7 @@ static_assert(base::lists_every_field<MinimiseSurfaceOptions>());
 struct MinimisedSurface {
     std::vector<geometry::Point> pose_mm;
     SurfaceEnergyParts start, end;  ///< the end is never above the start
-    std::size_t evaluations = 0;    ///< of all terms
+    std::size_t evaluations = 0;    ///< of all terms, and of all their derivatives
     double seconds = 0;             ///< by the clock, loading of a library not among them
 };
 

@@ -50,6 +50,16 @@ Kind kind_of(const std::filesystem::path& output) {
     throw InputError(fmt::format("{}: give a folder (no extension), a .glb, a .mp4 or a .csv", output.string()));
 }
 
+void refuse_options_of_other_outputs(const AnimateTakeArguments& arguments, const CLI::App& command) {
+    const auto kind = kind_of(arguments.output);
+    if (command.count("--components") > 0 && kind != Kind::glb)
+        throw InputError(
+            fmt::format("--components: serves a .glb, and the output is {}; leave it out", arguments.output.string()));
+    if (command.count("--format") > 0 && kind != Kind::meshes)
+        throw InputError(fmt::format("--format: serves a folder of meshes, and the output is {}; leave it out",
+                                     arguments.output.string()));
+}
+
 void check(const AnimateTakeArguments& arguments) {
     const auto method = animation::parse_marker_method(arguments.method);
     if (kind_of(arguments.output) == Kind::weights && method != animation::MarkerMethod::units &&
@@ -58,7 +68,8 @@ void check(const AnimateTakeArguments& arguments) {
             fmt::format("{}: a .csv says how strong AUs are, which --method {} does not; give units or "
                         "units-bones",
                         arguments.output.string(), arguments.method));
-    arguments.recording.refuse_as_output(arguments.output);
+    refuse_as_output(arguments.output, {arguments.recording.file, arguments.target.target, arguments.target.landmarks,
+                                        arguments.target.markers, arguments.set});
     if (arguments.every < 1) throw InputError("--every: is 0; give 1 for every frame, 2 for every other one");
     if (arguments.components < 1 || arguments.components > io::most_animated_targets)
         throw InputError(
@@ -361,7 +372,10 @@ void add_mocap_animate(CLI::App& group, int& exit_code) {
         ->capture_default_str();
     add_output_options(*command, *arguments);
     add_common_options(*command, arguments->common);
-    command->callback([arguments, &exit_code] { exit_code = run_animate_take(*arguments); });
+    command->callback([arguments, command, &exit_code] {
+        refuse_options_of_other_outputs(*arguments, *command);
+        exit_code = run_animate_take(*arguments);
+    });
 }
 
 }  // namespace mimik::cli

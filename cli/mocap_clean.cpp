@@ -101,7 +101,7 @@ void print(const CleanArguments& arguments, const capture::MarkerSequence& marke
 
 int run_clean(const CleanArguments& arguments) {
     (void)capture::motion_format(arguments.output);  // before the work
-    arguments.recording.refuse_as_output(arguments.output);
+    refuse_as_output(arguments.output, {arguments.recording.file});
     const auto file = arguments.recording.read();
     auto remarks = file.remarks;
     const auto add = [&](const std::vector<std::string>& more) {

@@ -34,10 +34,13 @@ capture::MotionFile Recording::read() const {
     return capture::read_motion(file, options);
 }
 
-void Recording::refuse_as_output(const std::filesystem::path& output) const {
-    std::error_code none;
-    if (std::filesystem::equivalent(file, output, none))
-        throw InputError(fmt::format("{}: is the recording itself; give the output another name", output.string()));
+void refuse_as_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs) {
+    for (const auto& input : inputs) {
+        std::error_code none;
+        if (!input.empty() && std::filesystem::equivalent(input, output, none))
+            throw InputError(
+                fmt::format("{}: is read by this very call; give the output another name", output.string()));
+    }
 }
 
 namespace {
@@ -129,7 +132,7 @@ capture::MarkerSequence frames_named(const capture::MarkerSequence& markers, con
 
 int run_convert(const ConvertArguments& arguments) {
     (void)capture::motion_format(arguments.output);  // before the work
-    arguments.recording.refuse_as_output(arguments.output);
+    refuse_as_output(arguments.output, {arguments.recording.file});
     auto file = arguments.recording.read();
     auto markers = std::move(file.markers);
     if (!arguments.frames.empty()) markers = frames_named(markers, arguments.frames);

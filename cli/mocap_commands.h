@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "capture/motion_file.h"
 #include "cli/command.h"
@@ -18,9 +19,11 @@ struct Recording {
 
     void add_options(CLI::App& command);
     [[nodiscard]] capture::MotionFile read() const;
-    /// @throws InputError if the output is the recording itself: what Mimik does not keep of it would be lost.
-    void refuse_as_output(const std::filesystem::path& output) const;
 };
+
+/// @throws InputError if the output is one of the files that are read: what Mimik does not keep of it would be lost.
+/// Inputs that are empty are passed over.
+void refuse_as_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs);
 
 /// --kernel of the commands that map space by points.
 void add_radial_kernel_option(CLI::App& command, std::string& name);

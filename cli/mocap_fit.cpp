@@ -89,7 +89,7 @@ FitError error_of(const geometry::Landmarks& labels, const geometry::Landmarks& 
         error.largest_mm = mm;
         error.largest_at = label.name;
     }
-    if (error.labels == 0) throw InputError("--truth: has none of the labels that are fitted; name them as they are");
+    if (error.labels == 0) throw InputError("has none of the labels that are fitted; name them as they are");
     error.mean_mm /= static_cast<double>(error.labels);
     return error;
 }
@@ -109,8 +109,9 @@ struct Task {
         if (way == "start") {
             fitted.labels = start.labels();
         } else if (way == "dense") {
-            auto dense =
-                animation::fit_labels_densely(start, reference.vertices_mm, reference.triangles, labels, target);
+            auto dense = naming(arguments.mesh, [&] {
+                return animation::fit_labels_densely(start, reference.vertices_mm, reference.triangles, labels, target);
+            });
             fitted.labels = std::move(dense.labels);
             fitted.seconds = dense.seconds;
             fitted.matched_share = dense.matched_share;
@@ -126,7 +127,7 @@ struct Task {
                 fitted.seconds = found.found.seconds;
             }
         }
-        if (truth) fitted.error = error_of(fitted.labels, *truth, points);
+        if (truth) fitted.error = naming(arguments.truth, [&] { return error_of(fitted.labels, *truth, points); });
         return fitted;
     }
 };
@@ -160,8 +161,12 @@ nlohmann::json as_json(const Fitted& fitted) {
     return document;
 }
 
-std::string in_words(const Fitted& fitted) {
+/// @param points  placed by hand @param projected  of the start
+std::string in_words(const Fitted& fitted, std::size_t points, std::size_t projected) {
     auto words = fmt::format("{:<9}", fitted.by);
+    if (fitted.by == "start")
+        words += fmt::format("  {} projected from the axis of the head, {} put on the nearest point", projected,
+                             fitted.labels.size() - points - projected);
     if (fitted.end)
         words +=
             fmt::format("  energy {:.4f} -> {:.4f} ({:.3f} mm off, {:.3f} mm stretched, {:.3f} bent), {} in {:.3f} s",
@@ -171,7 +176,8 @@ std::string in_words(const Fitted& fitted) {
         words += fmt::format("  {:.0f} % of the reference on the mesh, rms {:.2f} mm, in {:.3f} s",
                              100 * *fitted.matched_share, *fitted.residual_rms_mm, *fitted.seconds);
     if (fitted.error)
-        words += fmt::format("{} {:.2f} mm from the truth in the mean, {:.2f} at '{}'", fitted.end ? ";" : " ",
+        words += fmt::format("{} {:.2f} mm from the truth in the mean, {:.2f} at '{}'",
+                             fitted.end || fitted.matched_share || fitted.by == "start" ? ";" : " ",
                              fitted.error->mean_mm, fitted.error->largest_mm, fitted.error->largest_at);
     return words;
 }
@@ -186,7 +192,9 @@ Task prepared(const FitArguments& arguments, std::vector<std::string>& remarks) 
     auto set = arguments.set.empty() ? capture::builtin_marker_set() : capture::read_marker_set(arguments.set);
     const geometry::SurfaceIndex skin(reference.vertices_mm, reference.triangles);
     preprocessing::FitTarget target(mesh.vertices_mm, mesh.triangles);
-    auto start = naming(arguments.points, [&] {
+    naming_any({arguments.labels, arguments.reference},
+               [&] { capture::check_reference(skin, labels, arguments.options); });
+    auto start = naming_any({arguments.points, arguments.mesh}, [&] {
         return capture::start_labels(skin, labels, target.surface(), points, arguments.options);
     });
     remarks.insert(remarks.end(), start.remarks.begin(), start.remarks.end());
@@ -194,8 +202,33 @@ Task prepared(const FitArguments& arguments, std::vector<std::string>& remarks) 
             std::move(truth), std::move(set),       std::move(start), std::move(target)};
 }
 
+/// The labels stand beside the mesh and are read with its unit.
+geometry::Landmarks in_unit_of_mesh(const geometry::Landmarks& labels_mm, const std::string& unit) {
+    const double one_mm = io::millimetres_per(io::parse_length_unit(unit));
+    std::vector<geometry::Landmark> list(labels_mm.all().begin(), labels_mm.all().end());
+    for (auto& label : list) label.position_mm /= one_mm;
+    return geometry::Landmarks(std::move(list));
+}
+
+/// What a user typed and no chosen way reads is a misunderstanding.
+void refuse_options_of_other_ways(const FitArguments& arguments, const CLI::App& command) {
+    if (arguments.compare) return;
+    const auto& by = arguments.by;
+    const bool energy = by == "levenberg" || by == "ceres" || by == "simplex";
+    for (const auto* option : {"--rest", "--distance", "--strain", "--bending", "--set"})
+        if (command.count(option) > 0 && !energy)
+            throw InputError(fmt::format(
+                "{}: serves levenberg, ceres and simplex, and the labels are fitted by {}; leave it out, or give --by",
+                option, by));
+    if (command.count("--evaluations") > 0 && by != "simplex")
+        throw InputError(fmt::format(
+            "--evaluations: serves simplex, and the labels are fitted by {}; leave it out, or give --by simplex", by));
+}
+
 int run_fit(FitArguments& arguments) {
     auto& options = arguments.options;
+    refuse_as_output(arguments.output, {arguments.reference, arguments.mesh, arguments.labels, arguments.points,
+                                        arguments.set, arguments.truth});
     options.basis.kernel = radial_kernel_named(arguments.kernel);
     options.rest = arguments.rest == "reference" ? capture::LabelFitRest::reference : capture::LabelFitRest::warped;
     check_by_option({{"distance", "--distance"},
@@ -217,10 +250,15 @@ int run_fit(FitArguments& arguments) {
                 fmt::format("{} is not compared: its library is not there (scripts/setup.sh --adapters)", way));
             continue;
         }
-        all.push_back(task.by(way));
+        try {
+            all.push_back(task.by(way));
+        } catch (const InputError& e) {  // a library that is there and does not load
+            if (way == arguments.by) throw;
+            remarks.push_back(fmt::format("{} is not compared: {}", way, e.what()));
+        }
     }
     const auto& chosen = *std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.by == arguments.by; });
-    io::write_landmarks(arguments.output, chosen.labels);
+    io::write_landmarks(arguments.output, in_unit_of_mesh(chosen.labels, arguments.unit));
     if (arguments.common.json) {
         auto fits = nlohmann::json::array();
         for (const auto& one : all) fits.push_back(as_json(one));
@@ -237,7 +275,7 @@ int run_fit(FitArguments& arguments) {
     if (!arguments.common.quiet) say_notes(remarks);
     std::cout << fmt::format("{}: {} by {} placed by hand; {}\n", arguments.output.string(),
                              base::counted(chosen.labels.size(), "label"), task.points.size(), arguments.by);
-    for (const auto& one : all) std::cout << in_words(one) << '\n';
+    for (const auto& one : all) std::cout << in_words(one, task.points.size(), task.start.projected) << '\n';
     return exit_done;
 }
 
@@ -276,7 +314,8 @@ void add_mocap_fit(CLI::App& group, int& exit_code) {
         ->add_option("--points", arguments->points,
                      "Some of them on MESH, placed by hand: 10 to 12 all over the face, by the same names")
         ->required();
-    command->add_option("-o,--output", arguments->output, "Where all of them are on MESH (.csv)")->required();
+    command->add_option("-o,--output", arguments->output, "Where all of them are on MESH, in its unit (.csv)")
+        ->required();
     command
         ->add_option("--by", arguments->by,
                      "dense; levenberg, ceres or simplex (the published energy); start (its start alone)")
@@ -292,7 +331,10 @@ void add_mocap_fit(CLI::App& group, int& exit_code) {
     add_radial_kernel_option(*command, arguments->kernel);
     add_weights(*command, *arguments);
     add_common_options(*command, arguments->common);
-    command->callback([arguments, &exit_code] { exit_code = run_fit(*arguments); });
+    command->callback([arguments, command, &exit_code] {
+        refuse_options_of_other_ways(*arguments, *command);
+        exit_code = run_fit(*arguments);
+    });
 }
 
 }  // namespace mimik::cli

@@ -131,9 +131,16 @@ MocapWritten write_live_link(const std::filesystem::path& file, const MocapMotio
         strengths.push_back(rig.animator().weights(motion.markers_mm(f)));
     auto shapes = animation::arkit_weights(facs::builtin_catalogue(), rig.units().names, strengths,
                                            motion.rate_hz() / static_cast<double>(every));
-    base::write_atomically(base::where_links_lead(file), capture::encode_live_link_csv(shapes));
+    const auto text = capture::encode_live_link_csv(shapes);
+    // The format does not say its rate: who reads it counts the frames of a second.
+    const double counted_hz = capture::decode_live_link_csv(text, file.string()).rate_hz;
+    base::write_atomically(base::where_links_lead(file), text);
     MocapWritten written;
     written.remarks = std::move(shapes.remarks);
+    if (counted_hz != shapes.rate_hz)
+        written.remarks.push_back(
+            fmt::format("{}: has {:g} frames a second, and its timecodes look like {:g}; read it with --rate {:g}",
+                        file.string(), shapes.rate_hz, counted_hz, shapes.rate_hz));
     written.what = fmt::format("{}, {} of the 61 channels of Live Link Face", base::counted(strengths.size(), "row"),
                                shapes.shapes.size());
     return written;

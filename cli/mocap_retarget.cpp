@@ -28,7 +28,7 @@ struct Arguments {
 
 int run(const Arguments& arguments) {
     (void)capture::motion_format(arguments.output);  // before the work
-    arguments.recording.refuse_as_output(arguments.output);
+    refuse_as_output(arguments.output, {arguments.recording.file});
     auto options = arguments.options;
     options.basis.kernel = radial_kernel_named(arguments.kernel);
     check_by_option({{"radius_ratio", "--radius-ratio"}}, [&] { options.basis.check(); });

@@ -6,6 +6,7 @@
 
 #include "animation/part_masks.h"
 #include "base/errors.h"
+#include "base/quantile.h"
 #include "base/text.h"
 #include "builtin/unit_fields.h"
 #include "capture/control_surface.h"
@@ -83,6 +84,19 @@ MocapTarget of_mesh(const MocapTargetArguments& arguments) {
     return target;
 }
 
+/// Markers that lie elsewhere are of another unit, frame or face. Those of a jig lie above the skin, so the middle one
+/// says.
+void check_on_skin(const std::vector<geometry::Landmark>& labels, const geometry::SurfaceIndex& skin) {
+    constexpr double most_mm = 15;
+    std::vector<double> off_mm;
+    for (const auto& label : labels) off_mm.push_back(skin.closest(label.position_mm).distance_mm);
+    if (off_mm.empty() || base::median(off_mm) <= most_mm) return;
+    throw InputError(
+        fmt::format("half of the {} labels lie more than {:.1f} mm off the face, and {:g} is the most; mend "
+                    "their unit or frame, or give those of this face",
+                    labels.size(), base::median(off_mm), most_mm));
+}
+
 }  // namespace
 
 MocapTarget read_mocap_target(const MocapTargetArguments& arguments, const capture::MarkerSet& set) {
@@ -96,6 +110,7 @@ MocapTarget read_mocap_target(const MocapTargetArguments& arguments, const captu
         const auto read =
             io::read_landmarks(arguments.markers, target.mesh.vertices_mm, io::parse_length_unit(arguments.unit));
         labels.assign(read.all().begin(), read.all().end());
+        naming(arguments.markers, [&] { check_on_skin(labels, skin); });
     }
     const geometry::Landmarks given(labels);
     const auto places = naming(target.name, [&] { return capture::place_markers(set, target.landmarks); });

@@ -53,7 +53,7 @@ void solve(mimik_residual_function* residual, void* data, const mimik_residuals&
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
     if (!summary.IsSolutionUsable()) throw std::runtime_error(summary.message);
-    *evaluations = summary.num_residual_evaluations;
+    *evaluations = summary.num_residual_evaluations + summary.num_jacobian_evaluations;
 }
 
 }  // namespace

@@ -15,8 +15,11 @@ worlds=()
 while [ $# -gt 0 ]; do
   case "$1" in
     builtin | ict | makehuman) worlds+=("$1") ;;
-    --data) data=$2; shift ;;
-    --out) out=$2; shift ;;
+    --data | --out)
+      [ $# -gt 1 ] || { echo "results.sh: $1 needs a folder" >&2; exit 2; }
+      [ "$1" = --data ] && data=$2 || out=$2
+      shift
+      ;;
     --write) write=yes ;;
     *) echo "results.sh: there is no '$1'; give builtin, ict, makehuman, --data DIR, --out DIR or --write" >&2; exit 2 ;;
   esac
@@ -47,6 +50,8 @@ experiment() {  # world, file of experiments/, landmark error in mm
   say "$1: $2.toml, landmark error $3 mm"
   tolerant "$mimik" run "$root/experiments/$2.toml" --workspace "$1/work-$3" -o "$1/$2-$3" --quiet >/dev/null
 }
+# What made the runs of a page, each once.
+commits() { cat "$1"/*/experiment.json | sed -n 's/^ "commit": "\(.*\)",$/\1/p' | sort -u | paste -sd' '; }
 # Tables of a run, up to those of single expressions.
 tables() { sed '/^Whose expression it was/,$d' "$1/summary.md"; }
 
@@ -60,7 +65,7 @@ page() {  # world, title
   experiment "$world" thesis_on_itself 0
   echo "# Measured: $2"
   echo
-  echo "Written by \`scripts/results.sh $world\`, whole: what is changed by hand here is lost. Mimik $("$mimik" version | awk 'NR==1{v=$2} NR==2{print v ", commit " $2}')"
+  echo "Written by \`scripts/results.sh $world\`, whole: what is changed by hand here is lost. Runs are kept; this page's were made by commit $(commits "$world")"
   printf '\n## Every pair, every method\n\n`experiments/thesis-full.toml`\n\n'
   tables "$world/thesis-full-0"
   printf '\n## Each source on itself\n\n`experiments/thesis_on_itself.toml`\n\n'
@@ -94,5 +99,5 @@ for world in "${worlds[@]}"; do
   page "$world" "$title" >"$world/page.part"
   mv "$world/page.part" "$world/page.md"
   say "$out/$world/page.md"
-  [ "$write" = no ] || { mkdir -p "$root/docs/measured" && cp "$world/page.md" "$root/docs/measured/$world.md"; }
+  [ "$write" = no ] || { mkdir -p "$root/docs/measured" && cp "$world/page.md" "$root/docs/measured/$world.part" && mv "$root/docs/measured/$world.part" "$root/docs/measured/$world.md"; }
 done

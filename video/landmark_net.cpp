@@ -15,6 +15,7 @@
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "video/onnx_inputs.h"
 
 namespace mimik::video {
 namespace {
@@ -29,87 +30,10 @@ std::string text_of(const cv::dnn::MatShape& shape) {
     return text.empty() ? std::string("of no fixed size") : text;
 }
 
-/// Fields of a protobuf message, one after the other; false at the end, or where it is damaged.
-class Fields {
-public:
-    explicit Fields(std::string_view message) : rest_(message) {}
-    bool next() {
-        const auto tag = varint();
-        if (!tag) return false;
-        number = *tag >> 3U;
-        value = 0;
-        bytes = {};
-        std::uint64_t length = 0;
-        switch (*tag & 7U) {
-            case 0:
-                value = varint().value_or(0);
-                return true;
-            case 1:
-                length = 8;
-                break;
-            case 2:
-                length = varint().value_or(rest_.size() + 1);
-                break;
-            case 5:
-                length = 4;
-                break;
-            default:
-                return false;
-        }
-        if (length > rest_.size()) return false;
-        bytes = rest_.substr(0, length);
-        rest_.remove_prefix(length);
-        return true;
-    }
-    std::uint64_t number = 0, value = 0;
-    std::string_view bytes;
-
-private:
-    std::optional<std::uint64_t> varint() {
-        std::uint64_t made = 0;
-        for (unsigned shift = 0; shift < 64 && !rest_.empty(); shift += 7) {
-            const auto byte = static_cast<std::uint8_t>(rest_.front());
-            rest_.remove_prefix(1);
-            made |= static_cast<std::uint64_t>(byte & 127U) << shift;
-            if (byte < 128) return made;
-        }
-        return std::nullopt;
-    }
-    std::string_view rest_;
-};
-
-/// The field of this number; empty: there is none.
-std::string_view part_of(std::string_view message, std::uint64_t number) {
-    for (Fields fields(message); fields.next();)
-        if (fields.number == number) return fields.bytes;
-    return {};
-}
-
-/// Sides of an ONNX ValueInfoProto's tensor; 0: not fixed.
-cv::dnn::MatShape sides_of(std::string_view value_info) {
-    cv::dnn::MatShape shape;
-    for (Fields sides(part_of(part_of(part_of(value_info, 2), 1), 2)); sides.next();) {
-        if (sides.number != 1) continue;
-        std::uint64_t side = 0;
-        for (Fields fields(sides.bytes); fields.next();)
-            if (fields.number == 1) side = fields.value;
-        shape.push_back(side < 1'000'000 ? static_cast<int>(side) : 0);
-    }
-    return shape;
-}
-
-/// Depth, height and width of the one input. OpenCV 4.6 does not say them.
+/// Depth, height and width of the one input.
 cv::dnn::MatShape input_of(std::string_view model, const std::string& file) {
-    const auto graph = part_of(model, 7);
-    std::vector<std::string_view> constants;
-    for (Fields fields(graph); fields.next();)
-        if (fields.number == 5) constants.push_back(part_of(fields.bytes, 8));
-    std::vector<cv::dnn::MatShape> inputs;
-    for (Fields fields(graph); fields.next();)
-        if (fields.number == 11 &&
-            std::find(constants.begin(), constants.end(), part_of(fields.bytes, 1)) == constants.end())
-            inputs.push_back(sides_of(fields.bytes));
-    auto shape = inputs.size() == 1 ? inputs.front() : cv::dnn::MatShape();
+    const auto inputs = onnx_inputs(model);
+    auto shape = inputs.size() == 1 ? cv::dnn::MatShape(inputs.front()) : cv::dnn::MatShape();
     if (shape.size() == 4 && shape[0] == 0) shape[0] = 1;  // any number of pictures: one
     const bool fits = shape.size() == 4 && shape[0] == 1 && (shape[1] == 1 || shape[1] == 3) && shape[2] >= 1 &&
                       shape[2] <= most_side && shape[3] >= 1 && shape[3] <= most_side;

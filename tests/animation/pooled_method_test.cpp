@@ -30,6 +30,10 @@ TEST(PooledMotion, faces_like_the_targets_weigh_as_the_formula_says) {
     const double expected = (1 + 2 * w1 + 4 * w2) / (1 + w1 + w2);
     EXPECT_NEAR(pooled[0].y(), expected, 1e-12);
     EXPECT_NEAR(pooled[1].y(), 2 * expected, 1e-12);
+    // Of two faces the median lies half way: 2.
+    const auto of_two =
+        near_motion(std::vector<PooledSource>{{same, first}, {off_by_4, third}}, {nothing, true, target});
+    EXPECT_NEAR(of_two[0].y(), (1 + 4 * w2) / (1 + w2), 1e-12);
 }
 
 TEST(PooledMotion, of_one_source_is_its_own_and_of_equal_faces_the_mean) {

@@ -87,6 +87,29 @@ TEST(LabelFit, points_that_say_no_map_are_named_with_their_mend) {
     EXPECT_THAT(few.remarks, ElementsAre(HasSubstr("6 points are placed by hand; 10 to 12")));
 }
 
+TEST(LabelFit, a_mesh_of_another_unit_or_turned_inside_out_is_refused_by_name) {
+    const test::CurvedSheet sheet;
+    auto larger = sheet.vertices_mm;
+    for (auto& p : larger) p *= 2.54;
+    geometry::Transform scaled = geometry::Transform::Identity();
+    scaled.linear() *= 2.54;
+    EXPECT_THAT(test::message_of<InputError>([&] {
+                    (void)start_labels(sheet.index(), sheet.labels, {larger, sheet.triangles},
+                                       geometry::transformed(sheet.points(), scaled));
+                }),
+                AllOf(HasSubstr("2.54 times as far apart"), HasSubstr("unit")));
+    auto turned = sheet.triangles;
+    for (auto& t : turned) std::swap(t[1], t[2]);
+    EXPECT_THAT(test::message_of<InputError>([&] {
+                    (void)start_labels(sheet.index(), sheet.labels, {sheet.vertices_mm, turned}, sheet.points());
+                }),
+                AllOf(HasSubstr("the target is turned inside out"), HasSubstr("76 of 76")));
+    EXPECT_THAT(test::message_of<InputError>([&] {
+                    (void)start_labels({sheet.vertices_mm, turned}, sheet.labels, sheet.index(), sheet.points());
+                }),
+                HasSubstr("the reference is turned inside out"));
+}
+
 TEST(LabelFit, labels_that_are_no_corners_go_where_the_start_puts_them) {
     const test::CurvedSheet sheet;
     const auto skin = sheet.index();

@@ -51,7 +51,30 @@ expect_code 2 "--most-off: most_off_mm is -1" "$mimik" mocap fit "${faces[@]}" -
 printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n' >cloud.ply
 expect_code 2 "cloud.ply: has points and no faces" "$mimik" mocap fit take/source.ply cloud.ply --labels take/source_markers.csv --points points.csv -o o.csv
 expect_code 2 "o.pp: labels are written as .csv" "$mimik" mocap fit "${faces[@]}" --points points.csv -o o.pp
-expect_code 2 "--strain: strain is -1" "$mimik" mocap fit "${faces[@]}" --points points.csv --strain -1 -o o.csv
+expect_code 2 "--strain: strain is -1" "$mimik" mocap fit "${faces[@]}" --points points.csv --by levenberg --strain -1 -o o.csv
 expect_code 2 $'mimik-ceres.so is not there\nlibceres-dev' env MIMIK_COMPANIONS=/nowhere "$mimik" mocap fit "${faces[@]}" --points points.csv --by ceres -o o.csv
+
+expect_code 2 $'--strain: serves levenberg, ceres and simplex\nby dense' "$mimik" mocap fit "${faces[@]}" --points points.csv --strain 1 -o o.csv
+expect_code 2 "--evaluations: serves simplex" "$mimik" mocap fit "${faces[@]}" --points points.csv --by levenberg --evaluations 9 -o o.csv
+cp points.csv kept.csv
+expect_code 2 "kept.csv: is read by this very call" "$mimik" mocap fit "${faces[@]}" --points kept.csv -o kept.csv
+cmp points.csv kept.csv
+awk -F, -v OFS=, 'NR > 1 { $2 += 300 } 1' take/source_markers.csv >away.csv
+expect_code 2 $'away.csv\n76 points lie off the reference (of 76)' "$mimik" mocap fit take/source.ply take/target.ply --labels away.csv --points points.csv -o o.csv
+expect_code 2 $'times as far apart\nmend the unit' "$mimik" mocap fit "${faces[@]}" --points points.csv --mesh-unit m -o o.csv
+pick 'eye_inner_(left|right)|jaw_outer_(left|right)' >plane.csv
+expect_code 3 "of one plane" "$mimik" mocap fit "${faces[@]}" --points plane.csv --by levenberg -o o.csv
 [ ! -e o.csv ] && [ ! -e o.pp ] || fail "written all the same"
 claim "what is wrong is named in mm and by name, and nothing is written"
+
+mkdir junk
+: >junk/mimik-ceres.so
+MIMIK_COMPANIONS=$PWD/junk "$mimik" mocap fit "${faces[@]}" --points points.csv -o junk.csv --by start --compare --evaluations 200 >junk.txt 2>&1
+grep -q 'ceres is not compared' junk.txt || fail "$(cat junk.txt)"
+grep -q 'projected from the axis of the head' junk.txt || fail "$(cat junk.txt)"
+claim "a library that does not load costs its own row alone"
+
+fit -o cm.csv --by start --reference-unit cm --mesh-unit cm --quiet >/dev/null
+awk -F, 'FNR == 1 { next } NR == FNR { x[$1] = $2; next } $1 in x { ++n; d = x[$1] - $2; if (d > 0.01 || d < -0.01) exit 1 } END { exit n != 12 }' \
+  points.csv cm.csv || fail "$(cat cm.csv)"
+claim "labels are written in the unit of their mesh"

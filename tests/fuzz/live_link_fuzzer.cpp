@@ -14,6 +14,9 @@ void fuzz_one(std::span<const std::uint8_t> bytes) {
             "a value for every frame and shape");
     require(motion.values.allFinite(), "values are finite");
     for (std::size_t k = 1; k < frames; ++k) require(motion.times_s[k] > motion.times_s[k - 1], "time grows");
+    // What is written again reads as the same frames; a shape that is no channel is refused.
+    const auto again = capture::decode_live_link_csv(capture::encode_live_link_csv(motion), "output", motion.rate_hz);
+    require(again.tracked == motion.tracked, "what is written again has the same frames");
 }
 
 std::vector<std::string> seeds() {

@@ -36,10 +36,10 @@ private:
 
 struct TinyNet {
     int depth = 3, height = 4, width = 4, values = 136;
-    std::vector<float> weights;    ///< values x (depth height width), a row per value; empty: all 0
-    std::vector<float> constants;  ///< per value; empty: all 0
-    bool fixed_count = true;       ///< false: it takes any number of pictures
-    bool fixed_size = true;        ///< false: height and width have names in the place of numbers
+    std::vector<float> weights = {};    ///< values x (depth height width), a row per value; empty: all 0
+    std::vector<float> constants = {};  ///< per value; empty: all 0
+    bool fixed_count = true;            ///< false: it takes any number of pictures
+    bool fixed_size = true;             ///< false: height and width have names in the place of numbers
 };
 
 inline std::string onnx_file(const TinyNet& net) {
