@@ -1,8 +1,9 @@
 // How far labels that are fitted to another face are from the truth: the tables of docs/results.md, "Mesh
 // registration".
 //     mimik_label_fit_accuracy [--ict FOLDER] [--pairs N] [--noise MM] [--kernel K] [--rest warped|reference] ...
-// Faces of one model share their vertices: the truth of a label is its place in the triangle of the reference. Fixed
-// seeds; the same numbers on any number of threads, but for the times.
+// scripts/mocap_numbers.sh runs it as the page says. Faces of one model share their vertices: the truth of a label is
+// its place in the triangle of the reference. Fixed seeds; the same numbers on any number of threads, but for the
+// times.
 
 #include <algorithm>
 #include <array>
@@ -115,8 +116,12 @@ void measure(const synthesis::FaceModel& model, const Arguments& arguments) {
         add_errors(sums, dense.labels, truth);
         sums.seconds += dense.seconds;
     }
-    fmt::print("{}: {} pairs, {} points with {} mm\n", model.name(), arguments.pairs, by_hand.size(),
-               arguments.noise_mm);
+    fmt::print(
+        "### {}: {} pairs, {} points placed with an error of {:g} mm; lengths of the {}, projected up to {:g} mm\n\n"
+        "| by | mean, mm | median | 95th | largest | energy at the start | at the end | evaluations | s |\n"
+        "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        model.name(), arguments.pairs, by_hand.size(), arguments.noise_mm,
+        arguments.rest == "reference" ? "reference" : "warped reference", arguments.fit.most_projected_mm);
     for (const auto& name : order) {
         auto& sums = by[name];
         double mean = 0;
@@ -126,10 +131,15 @@ void measure(const synthesis::FaceModel& model, const Arguments& arguments) {
             return sums.errors_mm[static_cast<std::size_t>(share * static_cast<double>(sums.errors_mm.size() - 1))];
         };
         const auto runs = static_cast<double>(sums.runs);
-        fmt::print("| {:<12} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.4f} | {:.4f} | {:.0f} | {:.3f} |\n", name, mean,
-                   at(0.5), at(0.95), sums.errors_mm.back(), sums.start / runs, sums.end / runs,
-                   static_cast<double>(sums.evaluations) / runs, sums.seconds / runs);
+        fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |", name, mean, at(0.5), at(0.95), sums.errors_mm.back());
+        if (sums.evaluations > 0)
+            fmt::print(" {:.4f} | {:.4f} | {:.0f} |", sums.start / runs, sums.end / runs,
+                       static_cast<double>(sums.evaluations) / runs);
+        else
+            fmt::print(" | | |");
+        fmt::print(" {} |\n", sums.seconds > 0 ? fmt::format("{:.3f}", sums.seconds / runs) : "");
     }
+    fmt::print("\n");
     std::fflush(stdout);
 }
 
@@ -141,8 +151,9 @@ int main(int argc, char** argv) {
     app.add_option("--ict", arguments.ict, "Folder of ICT-FaceKit");
     app.add_option("--pairs", arguments.pairs, "Pairs of people of each model");
     app.add_option("--noise", arguments.noise_mm, "Standard deviation of the hand that places points, mm");
-    app.add_option("--kernel", arguments.kernel, "imq, gaussian, wendland, r, r2logr");
-    app.add_option("--rest", arguments.rest, "warped or reference");
+    app.add_option("--kernel", arguments.kernel, "imq, gaussian, wendland, r, r2logr")
+        ->check(CLI::IsMember({"imq", "gaussian", "wendland", "r", "r2logr"}));
+    app.add_option("--rest", arguments.rest, "warped or reference")->check(CLI::IsMember({"warped", "reference"}));
     app.add_option("--strain", arguments.fit.energy.strain, "Weight");
     app.add_option("--bending", arguments.fit.energy.bending, "Weight");
     app.add_option("--projected", arguments.fit.most_projected_mm, "mm");
