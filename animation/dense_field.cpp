@@ -1,10 +1,12 @@
 #include "animation/dense_field.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "animation/inner_parts.h"
 #include "animation/mesh_lips.h"
+#include "animation/rim_motion.h"
 #include "preprocessing/kept_registrations.h"
 
 namespace mimik::animation {
@@ -22,8 +24,14 @@ struct TemplatePlace {
     geometry::Triangle corners = {0, 0, 0};
     Eigen::Vector3d weights = Eigen::Vector3d::Zero();  ///< of the corners; they hold the fade beyond the rim
 };
+/// A vertex beyond the template's rim.
+struct PlaceBeyondRim {
+    std::uint32_t vertex = 0;
+    std::vector<MotionShare> shares;  ///< they hold the fade
+};
 struct TemplatePlaces {
     std::vector<TemplatePlace> of_vertices;  ///< of those that move
+    std::vector<PlaceBeyondRim> beyond_rim;  ///< likewise; no vertex is in both
     std::vector<preprocessing::LipSide> lip_sides;
     InnerParts inner;            ///< of somebody's mesh; a scan has none
     std::vector<Point> bent_mm;  ///< the template on the target
@@ -72,11 +80,12 @@ void put(TemplatePlace& place, const geometry::SurfaceIndex& index, const geomet
     place.weights = hit.barycentric * (index.on_border(hit) ? faded(hit.distance_mm) : 1.0);
 }
 
-/// The vertices of a mesh that are nearest to the wrong lip go to the nearest point of their own.
+/// On which lip the vertices of somebody's mesh lie.
 /// @param hits  on the template, of the vertices at `places`
-void put_on_own_lips(TemplatePlaces& places, const PreparedTarget& target, const geometry::SurfaceIndex& index,
-                     std::span<const geometry::SurfacePoint> hits, const preprocessing::FaceTemplate& face_template) {
-    using preprocessing::LipSide;
+std::vector<preprocessing::LipSide> own_lips_of_mesh(const TemplatePlaces& places, const PreparedTarget& target,
+                                                     const geometry::SurfaceIndex& index,
+                                                     std::span<const geometry::SurfacePoint> hits,
+                                                     const preprocessing::FaceTemplate& face_template) {
     const auto& vertices = target.normalised(Normalisation::similarity).vertices_mm;
     const auto shares_of = preprocessing::lip_shares(face_template);
     std::vector<double> shares(vertices.size(), 0.0);
@@ -84,7 +93,14 @@ void put_on_own_lips(TemplatePlaces& places, const PreparedTarget& target, const
         for (Eigen::Index c = 0; c < 3; ++c)
             shares[places.of_vertices[k].vertex] +=
                 hits[k].barycentric[c] * shares_of[index.triangles()[hits[k].triangle][static_cast<std::size_t>(c)]];
-    const auto own = lip_sides_along(vertices, target.surface().triangles, shares);
+    return lip_sides_along(vertices, target.surface().triangles, shares);
+}
+
+/// The vertices that are nearest to the wrong lip go to the nearest point of their own.
+void put_on_own_lips(TemplatePlaces& places, const PreparedTarget& target, const geometry::SurfaceIndex& index,
+                     std::span<const preprocessing::LipSide> own, const preprocessing::FaceTemplate& face_template) {
+    using preprocessing::LipSide;
+    const auto& vertices = target.normalised(Normalisation::similarity).vertices_mm;
     const auto side_of = preprocessing::lip_sides(face_template);
     for (const auto lip : {LipSide::upper, LipSide::lower}) {
         std::vector<geometry::Triangle> of_lip;
@@ -98,6 +114,37 @@ void put_on_own_lips(TemplatePlaces& places, const PreparedTarget& target, const
             put(place, lip_index, lip_index.closest(vertices[place.vertex]));
             side = lip;
         }
+    }
+}
+
+/// The vertices beyond the rim move by all of the rim near them. Close to it the nearest point, which most of them were
+/// put at, goes over into that.
+/// @param hits  on the template, of the vertices at `places`
+void put_beyond_rim(TemplatePlaces& places, std::span<const Point> vertices_mm, const geometry::SurfaceIndex& index,
+                    std::span<const geometry::SurfacePoint> hits, const preprocessing::FaceTemplate& face_template) {
+    constexpr double close_mm = 2.0;  // the template's own spacing
+    std::vector<std::uint8_t> of_lips(index.vertices_mm().size(), 0);
+    for (const auto* line : {&face_template.upper_lip_line, &face_template.lower_lip_line})
+        for (const auto v : *line) of_lips[v] = 1;
+    const RimMotion rim(index.vertices_mm(), index.triangles(), of_lips);
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+        auto& place = places.of_vertices[k];
+        const double distance_mm = hits[k].distance_mm;
+        if (!index.on_border(hits[k]) || !(distance_mm > 0) || place.weights.isZero(0)) continue;
+        bool of_rim = true;
+        for (std::size_t c = 0; c < 3; ++c)
+            of_rim = of_rim && (hits[k].barycentric[static_cast<Eigen::Index>(c)] == 0 ||
+                                rim.on_rim(index.triangles()[hits[k].triangle][c]));
+        if (!of_rim) continue;
+        auto shares = rim.shares(vertices_mm[place.vertex], distance_mm);
+        if (shares.empty()) continue;
+        const double over = std::min(1.0, distance_mm / close_mm);
+        for (auto& share : shares) share.share *= over * faded(distance_mm);
+        if (over < 1)
+            for (std::size_t c = 0; c < 3; ++c)
+                shares.push_back({place.corners[c], (1 - over) * place.weights[static_cast<Eigen::Index>(c)]});
+        places.beyond_rim.push_back({place.vertex, std::move(shares)});
+        place.weights.setZero();
     }
 }
 
@@ -121,8 +168,11 @@ TemplatePlaces locate(const PreparedTarget& target, const KeptRegistrations& reg
         put(place, index, hits[k]);
         places.lip_sides[place.vertex] = side_of[hits[k].triangle];
     }
-    if (!target.face()) put_on_own_lips(places, target, index, hits, face_template);
+    const auto own = surface.grid ? evened_lip_sides(places.lip_sides, *surface.grid)
+                                  : own_lips_of_mesh(places, target, index, hits, face_template);
+    put_on_own_lips(places, target, index, own, face_template);
     if (!target.face()) places.inner = inner_parts_of(target, index, places.of_vertices, hits);
+    put_beyond_rim(places, vertices, index, hits, face_template);
     std::erase_if(places.of_vertices, [](const TemplatePlace& place) { return place.weights.isZero(0); });
     places.bent_mm.assign(index.vertices_mm().begin(), index.vertices_mm().end());
     return places;
@@ -186,6 +236,11 @@ geometry::DisplacementField dense_field(const PreparedTarget& target, const mode
         Vector motion = Vector::Zero();
         for (std::size_t c = 0; c < 3; ++c)
             motion += place.weights[static_cast<Eigen::Index>(c)] * dense.motion_mm[place.corners[c]];
+        field.mm[place.vertex] = target_from_average * motion;
+    }
+    for (const auto& place : places.beyond_rim) {
+        Vector motion = Vector::Zero();
+        for (const auto& [vertex, share] : place.shares) motion += share * dense.motion_mm[vertex];
         field.mm[place.vertex] = target_from_average * motion;
     }
     move_inner_parts(field, target, places.inner, dense, target_from_average);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "animation/torn_faces.h"
 #include "base/errors.h"
 #include "base/file.h"
 #include "base/text.h"
@@ -52,16 +53,17 @@ void drop_unused_vertices(Mesh& mesh, std::vector<std::uint32_t>& kept) {
 /// @param at_any_magnitude  whatever the expressions are set to: morph targets can be moved
 void cut_torn(Mesh& mesh, const AnimatedFace& animated, std::vector<std::uint32_t>& kept, bool at_any_magnitude) {
     if (animated.lip_sides.empty() && animated.lid_sheets.empty()) return;
-    geometry::Faces whole;
+    geometry::Faces on_grid, whole;
     std::vector<std::uint32_t> corners;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         corners.clear();
         for (const auto v : mesh.faces[f]) corners.push_back(kept[v]);
-        bool is_torn = torn(animated, animated.field.mm, corners);
-        if (at_any_magnitude)
-            for (const auto& shape : animated.shapes) is_torn = is_torn || torn(animated, shape.mm, corners);
-        if (!is_torn) whole.add(mesh.faces[f]);
+        on_grid.add(corners);
     }
+    const auto torn = at_any_magnitude ? torn_faces_of_any_shape(animated, on_grid)
+                                       : torn_faces(animated, animated.field.mm, on_grid);
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        if (!torn[f]) whole.add(mesh.faces[f]);
     mesh.faces = std::move(whole);
     drop_unused_vertices(mesh, kept);
 }

@@ -1,5 +1,6 @@
 #include "animation/mesh_lips.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <queue>
@@ -41,6 +42,29 @@ std::vector<LipSide> lip_sides_along(std::span<const Point> vertices_mm, std::sp
         if (shares[v] != 0 && sides[v] == LipSide::neither)  // a part of its own, as a tooth: the nearest lip
             sides[v] = shares[v] > 0 ? LipSide::upper : LipSide::lower;
     return sides;
+}
+
+std::vector<LipSide> evened_lip_sides(std::span<const LipSide> sides, const geometry::GridShape& grid) {
+    constexpr int aside = 3, beside = 1;
+    const auto [rows, cols] = grid;
+    const auto at = [&](int row, int col) {
+        return sides[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col)];
+    };
+    std::vector<LipSide> evened(sides.begin(), sides.end());
+    for (int row = 0; row < rows; ++row)
+        for (int col = 0; col < cols; ++col) {
+            if (at(row, col) == LipSide::neither) continue;
+            int upper = 0, lower = 0;
+            for (int r = std::max(0, row - beside); r <= std::min(rows - 1, row + beside); ++r)
+                for (int c = std::max(0, col - aside); c <= std::min(cols - 1, col + aside); ++c) {
+                    upper += at(r, c) == LipSide::upper ? 1 : 0;
+                    lower += at(r, c) == LipSide::lower ? 1 : 0;
+                }
+            if (upper != lower)
+                evened[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col)] =
+                    upper > lower ? LipSide::upper : LipSide::lower;
+        }
+    return evened;
 }
 
 }  // namespace mimik::animation

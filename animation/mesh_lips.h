@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/face_surface.h"
 #include "geometry/types.h"
 #include "preprocessing/face_template.h"
 
@@ -16,5 +17,12 @@ namespace mimik::animation {
 [[nodiscard]] std::vector<preprocessing::LipSide> lip_sides_along(std::span<const geometry::Point> vertices_mm,
                                                                   std::span<const geometry::Triangle> triangles,
                                                                   std::span<const double> shares);
+
+/// The nearest point of a template is now and then of the wrong lip, so the line between the lips of a scan has single
+/// teeth, which would move with the other lip. A vertex of a lip goes to the one that most vertices about it lie on:
+/// seven columns wide and three rows high, since the line runs across.
+/// @param sides  of the vertices of a grid, row by row
+[[nodiscard]] std::vector<preprocessing::LipSide> evened_lip_sides(std::span<const preprocessing::LipSide> sides,
+                                                                   const geometry::GridShape& grid);
 
 }  // namespace mimik::animation

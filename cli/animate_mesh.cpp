@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "animation/torn_faces.h"
 #include "base/errors.h"
 #include "base/output_folder.h"
 #include "base/text.h"
@@ -20,16 +21,10 @@ namespace mimik::cli {
 namespace {
 
 /// @param at_any_magnitude  whatever the expressions are set to: morph targets can be moved
-std::size_t torn_faces(const geometry::Mesh& mesh, const animation::AnimatedFace& animated, bool at_any_magnitude) {
-    std::size_t torn = 0;
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        bool is_torn = animation::torn(animated, animated.field.mm, mesh.faces[f]);
-        if (at_any_magnitude)
-            for (const auto& shape : animated.shapes)
-                is_torn = is_torn || animation::torn(animated, shape.mm, mesh.faces[f]);
-        torn += is_torn ? 1 : 0;
-    }
-    return torn;
+std::ptrdiff_t count_torn(const geometry::Mesh& mesh, const animation::AnimatedFace& animated, bool at_any_magnitude) {
+    const auto torn = at_any_magnitude ? animation::torn_faces_of_any_shape(animated, mesh.faces)
+                                       : animation::torn_faces(animated, animated.field.mm, mesh.faces);
+    return std::count(torn.begin(), torn.end(), 1);
 }
 
 /// Whoever the mesh shows, by what it says of itself, is heeded in what is made of it, too.
@@ -126,7 +121,7 @@ int animate_own_mesh(const AnimateArguments& arguments, const ExpressionShelf& s
                                        &animated);
     });
     remarks.insert(remarks.end(), animated.remarks.begin(), animated.remarks.end());
-    if (const auto torn = torn_faces(file.mesh, animated, blendshapes); torn > 0)
+    if (const auto torn = count_torn(file.mesh, animated, blendshapes); torn > 0)
         remarks.push_back(fmt::format("lips or lids that part are joined in {} by {}, stretched there: cut the mesh",
                                       arguments.mesh.string(), base::counted(torn, "face")));
     auto made = made_by(arguments, shelf, arguments.mesh.filename().string(), "", chosen);

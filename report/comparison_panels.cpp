@@ -229,13 +229,13 @@ void add_person(FigureFolder& folder, const ShownPerson& person, const geometry:
 
     io::write_mesh(folder.file(stem("real.ply")),
                    drawn_surface(person.real->grid, request.holes, person.real->neutral_from_scan));
-    auto& third = folder.add_panel(
-        stem("real.ply"), (synthetic ? "Synthetic scan of the " : "Real scan of the ") + person.role, centre_mm);
+    auto& third = folder.add_panel(stem("real.ply"),
+                                   (synthetic ? "Synthetic scan of the " : "Scan of the ") + person.role, centre_mm);
     folder.add_controls(third, person.real_controls, stem("real_controls"));
 
     const auto coloured = [&](const char* mesh, const std::string& words, double mean_mm) {
         auto caption =
-            fmt::format("{} to {} scan\nmean {:.2f} mm in the zone", words, synthetic ? "synthetic" : "real", mean_mm);
+            fmt::format("{} to {}\nmean {:.2f} mm in the zone", words, synthetic ? "synthetic scan" : "scan", mean_mm);
         // A picture must not show a failure without a word.
         if (mean_mm > person.compared.zone_nothing_mm) caption += ":\nworse than doing nothing";
         auto& panel = folder.add_panel(stem(mesh), caption, centre_mm);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "animation/face_export.h"
+#include "animation/torn_faces.h"
 #include "base/errors.h"
 #include "geometry/box.h"
 #include "geometry/rim_bays.h"
@@ -44,9 +45,9 @@ void colour_by_origin(Mesh& mesh, const geometry::QuadGrid& grid, HoleDrawing ho
                                                             : filled_colour);
 }
 
-/// The wider lips part, the darker it is between them: a slit of a millimetre or two is no open mouth.
+/// The wider lips part, the darker it is between them: a slit of a millimetre is no open mouth.
 Colour inside_colour(double longest_mm) {
-    constexpr double closed_mm = 1.5, open_mm = 8;
+    constexpr double closed_mm = 1.5, open_mm = 4;
     const double t = std::clamp((longest_mm - closed_mm) / (open_mm - closed_mm), 0.0, 1.0);
     Colour colour{};
     for (std::size_t k = 0; k < 3; ++k)
@@ -54,30 +55,32 @@ Colour inside_colour(double longest_mm) {
     return colour;
 }
 
-/// The quads that a motion tears, each with corners of its own. All are as dark as the widest tenth, so that no stripes
-/// run through the mouth.
+/// The quads that a motion tears, as a surface of its own: its vertices are not those of the skin, which is lit and
+/// coloured apart. All of it is as dark as the widest tenth, so that no stripes run through the mouth.
 void add_inside_of_mouth(Mesh& mesh, const animation::AnimatedFace& animated, const Face& neutral,
                          const std::vector<Point>& moved_mm) {
-    const auto all = geometry::quads(neutral.grid);
-    std::vector<std::size_t> torn;
+    const auto quads = geometry::quads(neutral.grid);
+    const auto torn = animation::torn_faces(animated, animated.field.mm, quads);
     std::vector<double> longest_mm;
-    std::vector<std::uint32_t> corners;
-    for (std::size_t f = 0; f < all.size(); ++f) {
-        corners.assign(all[f].begin(), all[f].end());
-        if (!animation::torn(animated, animated.field.mm, corners)) continue;
-        torn.push_back(f);
+    for (std::size_t f = 0; f < quads.size(); ++f) {
+        if (!torn[f]) continue;
+        const auto corners = quads[f];
         double& longest = longest_mm.emplace_back(0);
         for (std::size_t k = 0; k < corners.size(); ++k)
             longest = std::max(longest, (moved_mm[corners[k]] - moved_mm[corners[(k + 1) % corners.size()]]).norm());
     }
-    if (torn.empty()) return;
+    if (longest_mm.empty()) return;
     const auto widest = longest_mm.begin() + static_cast<std::ptrdiff_t>(longest_mm.size() * 9 / 10);
     std::nth_element(longest_mm.begin(), widest, longest_mm.end());
     const auto colour = inside_colour(*widest);
-    for (const auto f : torn) {
+    std::map<std::uint32_t, std::uint32_t> place;  // in the mesh, by vertex of the grid
+    for (std::size_t f = 0; f < quads.size(); ++f) {
+        if (!torn[f]) continue;
         std::vector<std::uint32_t> own;
-        for (const auto v : all[f]) {
-            own.push_back(static_cast<std::uint32_t>(mesh.vertices_mm.size()));
+        for (const auto v : quads[f]) {
+            const auto [found, is_new] = place.emplace(v, static_cast<std::uint32_t>(mesh.vertices_mm.size()));
+            own.push_back(found->second);
+            if (!is_new) continue;
             mesh.vertices_mm.push_back(moved_mm[v]);
             mesh.colours.push_back(colour);
             if (!mesh.texture_coordinates.empty())

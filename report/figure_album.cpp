@@ -182,7 +182,7 @@ std::string index_page(const std::vector<AlbumEntry>& entries) {
            "border-bottom:1px solid "
            "#ddd}.missing{color:#a02020}.remark,.files{color:#606060;font-size:.9em;margin:.2em "
            "0}</style></head><body>\n"
-           "<h1>Figures</h1>\n" +
+           "<h1>Figures</h1>\n<p><a href=\"captions.md\">All captions as text</a></p>\n" +
            body + "</body></html>\n";
 }
 

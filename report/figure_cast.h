@@ -84,8 +84,11 @@ public:
     [[nodiscard]] std::string words(const std::string& subject) const;
     /// "AU4 Brow Lowerer"
     [[nodiscard]] std::string words(const facs::Expression& expression) const;
-    /// "synthetic" or "real": faces that nobody has are called so.
-    [[nodiscard]] std::string scan_word() const { return workspace_.made_with_truth() ? "synthetic" : "real"; }
+    /// "synthetic scan" of faces that nobody has, as far as it is known; else "scan": whether a database holds people
+    /// or a modeller's heads, its files do not say, so no figure calls them real.
+    [[nodiscard]] std::string scan_words() const { return workspace_.made_with_truth() ? "synthetic scan" : "scan"; }
+    /// The same, where a caption begins.
+    [[nodiscard]] std::string scan_title() const { return workspace_.made_with_truth() ? "Synthetic scan" : "Scan"; }
 
 private:
     void choose_people();

@@ -18,8 +18,8 @@ std::string distance_words(const FigureCast& cast, const ShownPerson& person) {
     if (!person.scored) return {};
     const auto& c = person.compared;
     return fmt::format(
-        " The animated {} lies {:.2f} mm from the {} scan in the zone of the expression; doing nothing {:.2f} mm{}.",
-        c.subject, c.zone_mm, cast.scan_word(), c.zone_nothing_mm,
+        " The animated {} lies {:.2f} mm from the {} in the zone of the expression; doing nothing {:.2f} mm{}.",
+        c.subject, c.zone_mm, cast.scan_words(), c.zone_nothing_mm,
         c.zone_mm > c.zone_nothing_mm ? ": the animation is worse than doing nothing" : "");
 }
 
@@ -29,8 +29,7 @@ void add_three(FigurePlan& plan, const FigureCast& cast, const ShownPerson& pers
     auto& panels = plan.picture.panels;
     panels.push_back(neutral_panel(person, holes, "Neutral " + who));
     panels.push_back(animated_panel(person, holes, "Animated " + who));
-    panels.push_back(real_panel(
-        person, holes, fmt::format("{} scan of the {}", cast.scan_word() == "real" ? "Real" : "Synthetic", who)));
+    panels.push_back(real_panel(person, holes, fmt::format("{} of the {}", cast.scan_title(), who)));
     if (!person.real) plan.remarks.push_back(panels.back().caption);
     plan.caption += distance_words(cast, person);
 }
@@ -166,12 +165,10 @@ FigurePlan exaggerated(const FigureCast& cast) {
     const auto holes = cast.options().holes;
     FigurePlan plan;
     plan.picture = page_of(2, fmt::format("{} with an exaggerated expression", cast.words(expression)));
-    plan.picture.panels = {
-        neutral_panel(*pair.source, holes, "Neutral source face " + source),
-        real_panel(*pair.source, holes,
-                   fmt::format("{} scan of the source", cast.scan_word() == "real" ? "Real" : "Synthetic")),
-        neutral_panel(*pair.target, holes, "Neutral target face " + cast.male()),
-        animated_panel(*pair.target, holes, "Animated target face " + cast.male())};
+    plan.picture.panels = {neutral_panel(*pair.source, holes, "Neutral source face " + source),
+                           real_panel(*pair.source, holes, fmt::format("{} of the source", cast.scan_title())),
+                           neutral_panel(*pair.target, holes, "Neutral target face " + cast.male()),
+                           animated_panel(*pair.target, holes, "Animated target face " + cast.male())};
     letter_panels(plan.picture);
     plan.caption = fmt::format("Animation of {} by the source who moves most, {} ({:.2f} mm in the zone), on {}, {}.",
                                cast.words(expression), source, pair.source->compared.zone_nothing_mm,
@@ -188,9 +185,9 @@ FigurePlan different_sources(const FigureCast& cast) {
     FigurePlan plan;
     plan.picture = page_of(3, fmt::format("{} by different source faces", cast.words(expression)));
     plan.caption = fmt::format(
-        "{} by different source faces: {} scans of the sources on the left, animated target "
+        "{} by different source faces: {}s of the sources on the left, animated target "
         "faces in the middle ({}) and on the right ({}), {}.",
-        cast.words(expression), cast.scan_word(), cast.words(cast.female()), cast.words(cast.male()),
+        cast.words(expression), cast.scan_words(), cast.words(cast.female()), cast.words(cast.male()),
         method_words(cast));
     for (const auto& source : sources) {
         bool first = true;

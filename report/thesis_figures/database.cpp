@@ -23,6 +23,17 @@ figures::Panel photographed(const FigureCast& cast, const preprocessing::Face& f
     return panel;
 }
 
+/// Databases list landmarks in orders of their own; numbers that are the same on every face need one.
+geometry::Landmarks in_usual_order(const geometry::Landmarks& landmarks) {
+    std::vector<geometry::Landmark> ordered;
+    for (const auto name : geometry::standard_landmark_names())
+        if (const auto* mark = landmarks.find(name)) ordered.push_back(*mark);
+    const auto names = geometry::standard_landmark_names();
+    for (const auto& mark : landmarks.all())
+        if (std::find(names.begin(), names.end(), mark.name) == names.end()) ordered.push_back(mark);
+    return geometry::Landmarks(std::move(ordered));
+}
+
 FigurePlan landmarks(const FigureCast& cast) {
     const auto face = cast.neutral(cast.source());
     FigurePlan plan;
@@ -30,14 +41,15 @@ FigurePlan landmarks(const FigureCast& cast) {
     plan.picture.panel_width_px = 900;
     plan.picture.panel_height_px = 1080;
     auto panel = photographed(cast, face, middle_of(face), {}, plan.remarks);
-    auto set = landmark_markers(face.landmarks);
+    const auto marks = in_usual_order(face.landmarks);
+    auto set = landmark_markers(marks);
     set.numbered = true;
     set.radius_mm = 1.6;
     panel.markers.push_back(std::move(set));
     plan.picture.panels.push_back(std::move(panel));
     plan.caption = fmt::format("The facial landmarks of {}, by number:", cast.words(cast.source()));
     int number = 0;
-    for (const auto& mark : face.landmarks.all())
+    for (const auto& mark : marks.all())
         plan.caption += fmt::format("{} {} {}", number == 0 ? "" : ",", number + 1, mark.name), ++number;
     plan.caption += ". Left and right are the subject's own.";
     return plan;

@@ -55,7 +55,8 @@ figures::Panel error_panel(const FigureCast& cast, const ShownPerson& person, co
 
 FigurePlan error_map(const FigureCast& cast, bool sign) {
     FigurePlan plan;
-    plan.picture = page_of(6, fmt::format("Distance of the animated faces to the {} scans", cast.scan_word()));
+    plan.picture = page_of(6, fmt::format("{} of the animated faces to the {}s", sign ? "Signed distance" : "Distance",
+                                          cast.scan_words()));
     plan.picture.panel_width_px = 270;
     plan.picture.panel_height_px = 330;
     plan.picture.legend = false;
@@ -78,9 +79,9 @@ FigurePlan error_map(const FigureCast& cast, bool sign) {
     if (std::none_of(panels.begin(), panels.end(), [](const auto& panel) { return panel.scalar.has_value(); }))
         throw InputError("no target was scanned with an expression that a source has");
     plan.caption = fmt::format(
-        "Distance of every vertex of the animated faces to the {} scan, {}, method '{}', each AU on {} and {}. The "
+        "Distance of every vertex of the animated faces to the {}, {}, method '{}', each AU on {} and {}. The "
         "colours mean the same on every face{}; grey: no data. The numbers are means over the face.",
-        cast.scan_word(), sign ? "signed: red before it, blue behind it" : "mm", cast.options().method,
+        cast.scan_words(), sign ? "signed: red before it, blue behind it" : "mm", cast.options().method,
         cast.words(cast.female()), cast.words(cast.male()), sign ? ", white is 0" : "");
     return plan;
 }

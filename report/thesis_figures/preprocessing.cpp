@@ -142,7 +142,9 @@ FigurePlan normalisation(const FigureCast& cast) {
     const Point nose_mm = average.landmarks.position_mm("nose_tip");
     const auto add = [&](const Mesh& mesh, const std::string& caption) {
         for (const auto* view : {"front", "left"}) {
-            auto panel = face_panel(mesh, nose_mm + Point(0, -8, std::string(view) == "left" ? -45 : 0), caption);
+            const bool profile = std::string(view) == "left";
+            auto panel = face_panel(mesh, nose_mm + Point(0, -8, profile ? -45 : 0),
+                                    caption + (profile ? ",\nprofile" : ",\nfront"));
             panel.view = figures::parse_view(view);
             panels.push_back(std::move(panel));
         }

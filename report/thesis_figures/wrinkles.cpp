@@ -62,7 +62,7 @@ LinePlot profiles_of(const FigureCast& cast, const ShownPerson& person, CutLine 
         auto real =
             surface_profile(drawn_surface(person.real->grid, HoleDrawing::fill, person.real->neutral_from_scan), line);
         take_away_slope(real, neutral);
-        plot.lines.push_back({cast.scan_word() + " scan", real, plot_colour(0), false});
+        plot.lines.push_back({cast.scan_words(), real, plot_colour(0), false});
     }
     return plot;
 }
@@ -84,9 +84,9 @@ FigurePlan profile(const FigureCast& cast, const std::string& code, CutLine (*cu
     FigurePlan plan;
     plan.svg = line_plots_svg(plots);
     plan.caption = fmt::format(
-        "A cut {} with {}: neutral, animated (method '{}') and {} scan. Height over the straight "
+        "A cut {} with {}: neutral, animated (method '{}') and {}. Height over the straight "
         "line between the ends of the neutral profile; each plot has its own scale.",
-        where, cast.words(expression), cast.options().method, cast.scan_word());
+        where, cast.words(expression), cast.options().method, cast.scan_words());
     return plan;
 }
 

@@ -60,5 +60,20 @@ TEST(MeshLips, a_part_that_hangs_on_no_lip_is_of_the_nearest) {
     for (auto v = first; v < first + 3; ++v) EXPECT_EQ(sides[v], LipSide::lower);
 }
 
+TEST(MeshLips, single_teeth_of_the_line_between_lips_go_to_the_lip_that_they_stick_into) {
+    // Rows 0 to 3 are the lower lip, 4 to 7 the upper; beside the mouth lies neither.
+    constexpr int rows = 8, cols = 16;
+    std::vector<LipSide> clean(static_cast<std::size_t>(rows * cols), LipSide::neither);
+    for (int row = 0; row < rows; ++row)
+        for (int col = 2; col < cols - 2; ++col)
+            clean[static_cast<std::size_t>(row * cols + col)] = row < 4 ? LipSide::lower : LipSide::upper;
+    auto noisy = clean;
+    noisy[4 * cols + 7] = noisy[4 * cols + 8] = LipSide::lower;  // two wide, one high
+    noisy[3 * cols + 4] = LipSide::upper;
+    noisy[6 * cols + 10] = LipSide::lower;  // an island
+    EXPECT_EQ(evened_lip_sides(noisy, {rows, cols}), clean);
+    EXPECT_EQ(evened_lip_sides(clean, {rows, cols}), clean);
+}
+
 }  // namespace
 }  // namespace mimik::animation

@@ -84,7 +84,7 @@ TEST_F(ComparisonPanels, two_people_have_five_panels_each_and_every_file_that_is
                 EXPECT_TRUE(fs::exists(out("two") / panel.at(key).get<std::string>())) << panel;
             }
     EXPECT_EQ(description.at("panels")[0].at("caption"), "(a) Neutral source bs000");
-    EXPECT_EQ(description.at("panels")[7].at("caption"), "(h) Real scan of the target");
+    EXPECT_EQ(description.at("panels")[7].at("caption"), "(h) Scan of the target");
 }
 
 TEST_F(ComparisonPanels, a_face_that_is_worse_than_doing_nothing_is_said_to_be) {

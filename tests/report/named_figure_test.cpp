@@ -166,6 +166,7 @@ TEST_F(FiguresOfAWorkspace, an_expression_that_nobody_has_is_named_and_the_rest_
     EXPECT_THAT(captions, HasSubstr("[fig-6-2.png](fig-6-2.png)"));
     const auto page = base::read_text(folder / "index.html", 1 << 20);
     EXPECT_THAT(page, HasSubstr("<img src=\"fig-6-2.png\""));
+    EXPECT_THAT(page, HasSubstr("<a href=\"captions.md\">"));
     EXPECT_THAT(page, HasSubstr("<td>HAPPY</td><td>AU6 + AU12</td>"));
     EXPECT_THAT(page, testing::Not(HasSubstr("http")));  // nothing is asked of a network
 }
