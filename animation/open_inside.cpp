@@ -54,7 +54,8 @@ public:
     /// A dark face between vertices that there are.
     void between(std::initializer_list<std::uint32_t> corners) {
         auto& face = dark_.emplace_back();
-        for (const auto v : corners) face.emplace_back(v, v);
+        for (const auto v : corners)
+            if (face.empty() || (face.back().first != v && face.front().first != v)) face.emplace_back(v, v);
     }
 
     /// The dark faces come last, and so do their vertices.

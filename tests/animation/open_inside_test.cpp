@@ -91,6 +91,13 @@ TEST(OpenInside, lines_have_a_dark_strip_between_them) {
     EXPECT_THROW((void)open_between_lines(mesh, sheets, {}), InputError);
 }
 
+TEST(OpenInside, a_strip_ends_in_a_triangle_where_the_lines_meet) {
+    const auto opened =
+        open_between_lines(strip(), std::vector<std::uint32_t>{4, 5, 2}, std::vector<std::uint32_t>{4, 1, 2});
+    EXPECT_EQ(opened.mesh.faces[3].size(), 3U);
+    EXPECT_EQ(opened.mesh.faces[4].size(), 3U);
+}
+
 TEST(OpenInside, a_surface_that_nothing_tears_is_as_it_was) {
     const auto opened = open_between_sheets(strip(), std::vector<std::uint8_t>{0, 0, 0}, sheets);
     EXPECT_EQ(opened.mesh.faces.corners, strip().faces.corners);
