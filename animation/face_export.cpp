@@ -49,29 +49,36 @@ void drop_unused_vertices(Mesh& mesh, std::vector<std::uint32_t>& kept) {
         keep_marked(attribute.values, used, static_cast<std::size_t>(attribute.components));
 }
 
-/// Leaves out the faces that parting lips, or lids that leave an eyeball, would stretch into a web.
-/// @param at_any_magnitude  whatever the expressions are set to: morph targets can be moved
-void cut_torn(Mesh& mesh, const AnimatedFace& animated, std::vector<std::uint32_t>& kept, bool at_any_magnitude) {
-    if (animated.lip_sides.empty() && animated.lid_sheets.empty()) return;
-    geometry::Faces on_grid, whole;
+/// Per face, whether parting lips, or lids that leave an eyeball, would stretch it into a web.
+/// @param kept  grid index of every vertex  @param at_any_magnitude  whatever the expressions are set to: morph targets
+/// can be moved
+std::vector<std::uint8_t> torn_of(const Mesh& mesh, const AnimatedFace& animated,
+                                  const std::vector<std::uint32_t>& kept, bool at_any_magnitude) {
+    geometry::Faces on_grid;
     std::vector<std::uint32_t> corners;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         corners.clear();
         for (const auto v : mesh.faces[f]) corners.push_back(kept[v]);
         on_grid.add(corners);
     }
-    const auto torn = at_any_magnitude ? torn_faces_of_any_shape(animated, on_grid)
-                                       : torn_faces(animated, animated.field.mm, on_grid);
+    return at_any_magnitude ? torn_faces_of_any_shape(animated, on_grid)
+                            : torn_faces(animated, animated.field.mm, on_grid);
+}
+
+/// Leaves these faces out.
+void cut_torn(Mesh& mesh, const AnimatedFace& animated, std::vector<std::uint32_t>& kept, bool at_any_magnitude) {
+    if (animated.lip_sides.empty() && animated.lid_sheets.empty()) return;
+    const auto is_torn = torn_of(mesh, animated, kept, at_any_magnitude);
+    geometry::Faces whole;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-        if (!torn[f]) whole.add(mesh.faces[f]);
+        if (!is_torn[f]) whole.add(mesh.faces[f]);
     mesh.faces = std::move(whole);
     drop_unused_vertices(mesh, kept);
 }
 
-/// The grid in the frame asked for, with the displacement of its neutral vertices as an attribute.
-Mesh mesh_of(const AnimatedFace& animated, const preprocessing::Face& neutral, const ExportOptions& options,
-             Positions positions, std::vector<std::uint32_t>* kept_vertices = nullptr) {
-    std::vector<std::uint32_t> kept;
+/// The grid in the frame asked for, with the displacement of its neutral vertices as an attribute, and whole.
+Mesh whole_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral, const ExportOptions& options,
+                Positions positions, std::vector<std::uint32_t>& kept) {
     Mesh mesh = geometry::to_mesh(neutral.grid, options.bridged, &kept);
     geometry::VertexAttribute displacement{"displacement_mm", 3, {}};
     for (std::size_t k = 0; k < kept.size(); ++k) {
@@ -85,6 +92,14 @@ Mesh mesh_of(const AnimatedFace& animated, const preprocessing::Face& neutral, c
         displacement.values.insert(displacement.values.end(), d.begin(), d.end());
     }
     mesh.attributes.insert(mesh.attributes.begin(), std::move(displacement));
+    return mesh;
+}
+
+/// The same without the faces that are torn.
+Mesh mesh_of(const AnimatedFace& animated, const preprocessing::Face& neutral, const ExportOptions& options,
+             Positions positions, std::vector<std::uint32_t>* kept_vertices = nullptr) {
+    std::vector<std::uint32_t> kept;
+    Mesh mesh = whole_mesh(animated, neutral, options, positions, kept);
     cut_torn(mesh, animated, kept, positions == Positions::neutral);
     if (kept_vertices) *kept_vertices = std::move(kept);
     return mesh;
@@ -191,6 +206,20 @@ Mesh to_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral, c
 Mesh resting_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral, const ExportOptions& options,
                   std::vector<std::uint32_t>* kept_vertices) {
     return mesh_of(animated, neutral, options, Positions::neutral, kept_vertices);
+}
+
+OpenableSurface opening_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral,
+                             const ExportOptions& options) {
+    std::vector<std::uint32_t> kept;
+    const auto mesh = whole_mesh(animated, neutral, options, Positions::neutral, kept);
+    std::vector<std::uint32_t> sheet(mesh.vertices_mm.size(), 0);
+    for (std::size_t v = 0; v < sheet.size(); ++v) {
+        if (!animated.lip_sides.empty()) sheet[v] = static_cast<std::uint32_t>(animated.lip_sides[kept[v]]);
+        if (!animated.lid_sheets.empty()) sheet[v] += 4 * static_cast<std::uint32_t>(animated.lid_sheets[kept[v]]);
+    }
+    auto surface = open_between_sheets(mesh, torn_of(mesh, animated, kept, true), sheet);
+    for (auto& v : surface.moves_with) v = kept[v];
+    return surface;
 }
 
 std::vector<std::string> write_animated_face(const std::filesystem::path& file, const AnimatedFace& animated,

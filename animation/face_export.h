@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "animation/animate.h"
+#include "animation/open_inside.h"
 #include "geometry/mesh.h"
 #include "io/mesh_io.h"
 #include "preprocessing/face.h"
@@ -39,6 +40,11 @@ struct ExportOptions {
 [[nodiscard]] geometry::Mesh resting_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral,
                                           const ExportOptions& options = {},
                                           std::vector<std::uint32_t>* kept_vertices = nullptr);
+
+/// The same, whole: where the shapes tear it, it is cut, and a dark inside lies behind the cut (open_inside.h). No
+/// colours yet. `moves_with` are grid indices.
+[[nodiscard]] OpenableSurface opening_mesh(const AnimatedFace& animated, const preprocessing::Face& neutral,
+                                           const ExportOptions& options = {});
 
 /// One morph target of the GLB: an expression at magnitude 1 and how far it is set.
 struct NamedMagnitude {

@@ -30,6 +30,7 @@
 #include "capture/fill_gaps.h"
 #include "capture/retarget.h"
 #include "capture/stabilise.h"
+#include "capture/stick_markers.h"
 #include "facs/facs_catalogue.h"
 #include "io/landmark_io.h"
 #include "io/mesh_io.h"
@@ -84,10 +85,7 @@ struct Shelf {
 geometry::Landmarks labels_on(const std::vector<Point>& vertices, const std::vector<geometry::Triangle>& triangles,
                               const geometry::Landmarks& landmarks) {
     const geometry::SurfaceIndex skin(vertices, triangles);
-    const auto places = capture::place_markers(capture::builtin_marker_set(), landmarks);
-    std::vector<geometry::Landmark> list;
-    for (const auto& mark : places.all()) list.push_back({mark.name, skin.closest(mark.position_mm).position_mm, ""});
-    return geometry::Landmarks(std::move(list));
+    return capture::stick_markers(capture::builtin_marker_set(), landmarks, skin).landmarks();
 }
 
 Rig rig_of(const Actor& actor, const Shelf& shelf, const Arguments& arguments) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -34,6 +35,7 @@
 #include "io/json_values.h"
 #include "io/landmark_io.h"
 #include "preprocessing/face_template.h"
+#include "report/shaded_face.h"
 
 namespace mimik::cli {
 namespace {
@@ -53,6 +55,7 @@ struct Character {
     std::optional<preprocessing::Face> face;  ///< of a workspace
     std::optional<io::MeshFile> file;         ///< somebody's mesh
     geometry::FaceSurface surface;
+    std::vector<std::uint32_t> upper_lip_line, lower_lip_line;  ///< of the average face
     std::filesystem::path texture_file;
     std::string workspace;
 };
@@ -168,31 +171,53 @@ std::vector<animation::ExampleModels> models_of(const ExpressionShelf& shelf, co
     return examples;
 }
 
-/// The mesh at rest, and per vertex the vertex of the surface that it is.
-geometry::Mesh resting(const Character& character, const animation::MadeExamples& made,
-                       std::vector<std::uint32_t>& source) {
+/// The mesh at rest, and per vertex the vertex of the surface that it moves with. Scans and the average face have no
+/// inside of a mouth; they get one.
+animation::OpenableSurface resting(const Character& character, const animation::MadeExamples& made) {
     if (character.face) {
         // A scan's holes would be seen through: they are bridged, as in figures.
         auto face = *character.face;
         face.grid = geometry::without_rim_bays(std::move(face.grid));
-        return animation::resting_mesh(made.face, face, {.bridged = geometry::BridgedVertices::keep}, &source);
+        return animation::opening_mesh(made.face, face, {.bridged = geometry::BridgedVertices::keep});
+    }
+    if (character.file) {
+        animation::OpenableSurface own{character.file->mesh, {}, character.file->mesh.vertices_mm.size()};
+        for (std::uint32_t v = 0; v < own.skin_vertices; ++v) own.moves_with.push_back(v);
+        return own;
     }
     geometry::Mesh mesh;
-    if (character.file) {
-        mesh = character.file->mesh;
-    } else {
-        mesh.vertices_mm = character.surface.vertices_mm;
-        for (const auto& t : character.surface.triangles) mesh.faces.add(t);
-    }
-    for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v) source.push_back(v);
-    return mesh;
+    mesh.vertices_mm = character.surface.vertices_mm;
+    for (const auto& t : character.surface.triangles) mesh.faces.add(t);
+    return animation::open_between_lines(mesh, character.upper_lip_line, character.lower_lip_line);
+}
+
+/// A photograph has no inside of a mouth: a dark band below it is one.
+void darken(animation::OpenableSurface& surface, io::Image& texture) {
+    constexpr int band = 8;  // pixels: the nearest row of a smaller picture of it is still dark
+    const double kept = static_cast<double>(texture.height) / (texture.height + band);
+    texture.height += band;
+    texture.rgb.reserve(texture.rgb.size() + std::size_t{3} * band * static_cast<std::size_t>(texture.width));
+    for (int pixel = 0; pixel < band * texture.width; ++pixel)
+        texture.rgb.insert(texture.rgb.end(), animation::inside_colour.begin(), animation::inside_colour.end());
+    auto& coordinates = surface.mesh.texture_coordinates;
+    for (std::size_t v = 0; v < coordinates.size(); ++v)
+        coordinates[v] = v < surface.skin_vertices
+                             ? geometry::TextureCoordinate(coordinates[v].x(), 1 - kept * (1 - coordinates[v].y()))
+                             : geometry::TextureCoordinate(0.5, 0.5 * (1 - kept));
 }
 
 animation::FacialExamples as_examples(const Character& character, const std::vector<animation::ExampleRecipe>& recipes,
-                                      const animation::MadeExamples& made) {
+                                      const animation::MadeExamples& made, io::Image* texture) {
     animation::FacialExamples set;
-    std::vector<std::uint32_t> source;
-    set.neutral = resting(character, made, source);
+    auto surface = resting(character, made);
+    const auto source = surface.moves_with;
+    if (surface.skin_vertices < source.size()) {
+        if (!surface.mesh.texture_coordinates.empty() && texture)
+            darken(surface, *texture);
+        else
+            animation::colour_inside(surface, report::painted_skin);
+    }
+    set.neutral = std::move(surface.mesh);
     for (std::size_t k = 0; k < recipes.size(); ++k) {
         animation::FacialExample example{recipes[k].name, recipes[k].arkit, {}};
         example.displacement_mm.reserve(source.size());
@@ -265,8 +290,12 @@ int run(const Arguments& arguments) {
         }
     Models models;
     const auto parts = models_of(*shelf, catalogue, recipes, source, method.model_options(), arguments.common, models);
-    if (character.name == builtin_name)
-        character.surface = preprocessing::build_face_template(shelf->average()).surface;
+    if (character.name == builtin_name) {
+        auto average = preprocessing::build_face_template(shelf->average());
+        character.surface = std::move(average.surface);
+        character.upper_lip_line = std::move(average.upper_lip_line);
+        character.lower_lip_line = std::move(average.lower_lip_line);
+    }
     const auto of_face = shelf->workspace() && character.face;
     const auto made = naming_any({arguments.target}, [&] {
         const auto target = of_face ? animation::PreparedTarget(*character.face)
@@ -274,15 +303,22 @@ int run(const Arguments& arguments) {
         return animation::make_examples(target, parts, method.animation_options());
     });
     remarks.insert(remarks.end(), made.remarks.begin(), made.remarks.end());
-    auto set = as_examples(character, recipes, made);
-    const std::filesystem::path folder = arguments.output;
-    if (!character.texture_file.empty() && !set.neutral.texture_coordinates.empty()) {
+    std::optional<io::Image> texture;
+    const bool has_coordinates = character.face   ? !character.face->grid.texture_coordinates.empty()
+                                 : character.file ? !character.file->mesh.texture_coordinates.empty()
+                                                  : false;
+    if (has_coordinates && !character.texture_file.empty()) {
         try {
-            io::write_png(folder / "neutral_texture.png", io::read_image(character.texture_file));
-            set.texture_file = folder / "neutral_texture.png";
+            texture = io::read_image(character.texture_file);
         } catch (const InputError& e) {
             remarks.push_back(fmt::format("the face has no picture: {}", e.what()));
         }
+    }
+    auto set = as_examples(character, recipes, made, texture ? &*texture : nullptr);
+    const std::filesystem::path folder = arguments.output;
+    if (texture) {
+        set.texture_file = folder / "neutral_texture.png";
+        io::write_png(set.texture_file, *texture);
     }
     if (!made.features.features.empty()) {
         set.features_file = folder / "features.csv";

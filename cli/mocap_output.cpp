@@ -43,7 +43,8 @@ geometry::Mesh frame_mesh(const MocapMotion& motion, std::size_t frame, bool wit
     auto mesh = motion.rig().moved(displacement);
     if (with_displacement) {
         geometry::VertexAttribute values{"displacement_mm", 3, {}};
-        for (const auto& d : displacement) values.values.insert(values.values.end(), {d.x(), d.y(), d.z()});
+        for (const auto v : motion.rig().surface().moves_with)
+            values.values.insert(values.values.end(), displacement[v].begin(), displacement[v].end());
         mesh.attributes.push_back(std::move(values));
     }
     return mesh;
@@ -99,11 +100,12 @@ MocapWritten write_moving_glb(const std::filesystem::path& file, const MocapMoti
         [&](std::size_t frame, std::span<Vector> displacement) { motion.displace(frame * every, displacement); },
         options);
     std::vector<std::uint32_t> source;
-    auto glb = io::glb_mesh(motion.rig().target().mesh, &source);
+    const auto& surface = motion.rig().surface();
+    auto glb = io::glb_mesh(surface.mesh, &source);
     io::WeightAnimation weights;
     for (std::size_t c = 0; c < parts.shapes_mm.size(); ++c) {
         io::MorphTarget target{fmt::format("component_{}", c + 1), {}, parts.weights.front()[c], {}};
-        for (const auto v : source) target.displacement_mm.push_back(parts.shapes_mm[c][v]);
+        for (const auto v : source) target.displacement_mm.push_back(parts.shapes_mm[c][surface.moves_with[v]]);
         glb.morph_targets.push_back(std::move(target));
     }
     for (std::size_t f = 0; f < frames; ++f) {

@@ -1,15 +1,18 @@
 #include "cli/mocap_target.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
+#include "animation/lid_field.h"
 #include "animation/part_masks.h"
 #include "base/errors.h"
 #include "base/quantile.h"
 #include "base/text.h"
 #include "builtin/unit_fields.h"
 #include "capture/control_surface.h"
+#include "capture/stick_markers.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
 #include "cli/subject_names.h"
@@ -21,6 +24,7 @@
 #include "io/landmark_io.h"
 #include "preprocessing/kept_registrations.h"
 #include "preprocessing/workspace.h"
+#include "report/shaded_face.h"
 
 namespace mimik::cli {
 
@@ -97,7 +101,46 @@ void check_on_skin(const std::vector<geometry::Landmark>& labels, const geometry
                     labels.size(), base::median(off_mm), most_mm));
 }
 
+/// A scan has eyeball and lids in one surface, and where an eye is wide open the place of a lid's marker is before the
+/// eyeball. That stays: bones would hang on nothing, and AUs would not see the lid move. The marker goes to the lid.
+void put_on_lids(MocapTarget& target, const capture::MarkerSet& set, const geometry::SurfaceIndex& skin,
+                 std::vector<geometry::Landmark>& labels) {
+    using animation::LidSheet;
+    target.prepare();
+    const auto sheets = animation::lid_sheets(*target.prepared);
+    const auto& vertices_mm = target.mesh.vertices_mm;
+    const auto move = [&](const std::vector<std::string>& names, LidSheet sheet) {
+        for (auto& label : labels) {
+            if (std::find(names.begin(), names.end(), label.name) == names.end()) continue;
+            const auto& corners = target.triangles[skin.closest(label.position_mm).triangle];
+            if (std::none_of(corners.begin(), corners.end(), [&](auto v) { return sheets[v] == LidSheet::eyeball; }))
+                continue;
+            std::optional<std::size_t> nearest;
+            for (std::size_t v = 0; v < vertices_mm.size(); ++v)
+                if (sheets[v] == sheet && (!nearest || (vertices_mm[v] - label.position_mm).squaredNorm() <
+                                                           (vertices_mm[*nearest] - label.position_mm).squaredNorm()))
+                    nearest = v;
+            if (nearest) label.position_mm = vertices_mm[*nearest];
+        }
+    };
+    for (const auto& opening : set.openings) {
+        if (!opening.name.starts_with("eye")) continue;
+        move(opening.upper, LidSheet::upper);
+        move(opening.lower, LidSheet::lower);
+    }
+}
+
 }  // namespace
+
+void MocapTarget::prepare() {
+    if (prepared) return;
+    expressions = std::make_shared<const builtin::BuiltinExpressions>();
+    geometry::Mesh skin;
+    skin.vertices_mm = mesh.vertices_mm;
+    skin.faces = mesh.faces;
+    prepared = std::make_shared<const animation::PreparedTarget>(geometry::face_surface(skin, landmarks),
+                                                                 expressions->average(), name);
+}
 
 MocapTarget read_mocap_target(const MocapTargetArguments& arguments, const capture::MarkerSet& set) {
     const auto work = in_workspace(arguments.target);
@@ -113,12 +156,14 @@ MocapTarget read_mocap_target(const MocapTargetArguments& arguments, const captu
         naming(arguments.markers, [&] { check_on_skin(labels, skin); });
     }
     const geometry::Landmarks given(labels);
-    const auto places = naming(target.name, [&] { return capture::place_markers(set, target.landmarks); });
+    const auto places =
+        naming(target.name, [&] { return capture::stick_markers(set, target.landmarks, skin).landmarks(); });
     for (const auto& mark : places.all()) {
         if (given.find(mark.name)) continue;
         if (!arguments.markers.empty() && set.find(mark.name)) continue;  // a marker that its user left out
-        labels.push_back({mark.name, skin.closest(mark.position_mm).position_mm, ""});
+        labels.push_back(mark);
     }
+    if (target.is_scan && arguments.markers.empty()) put_on_lids(target, set, skin, labels);
     target.labels = geometry::Landmarks(std::move(labels));
     for (const auto& fault : capture::surface_faults(set, target.labels)) target.remarks.push_back(fault);
     return target;
@@ -127,6 +172,10 @@ MocapTarget read_mocap_target(const MocapTargetArguments& arguments, const captu
 MocapRig::MocapRig(MocapTarget target, MarkerMethod method, const capture::MarkerSet& set,
                    std::vector<std::string> tracked, const animation::MarkerAnimatorOptions& options)
     : target_(std::move(target)), tracked_(std::move(tracked)) {
+    surface_.mesh = target_.mesh;
+    surface_.moves_with.resize(target_.mesh.vertices_mm.size());
+    std::iota(surface_.moves_with.begin(), surface_.moves_with.end(), 0U);
+    surface_.skin_vertices = surface_.moves_with.size();
     make_ready(method, set);
     const animation::MarkerAnimator::Mesh mesh{target_.mesh.vertices_mm, target_.triangles, parts_, &units_};
     animator_ = std::make_unique<const animation::MarkerAnimator>(method, mesh, set, target_.labels, tracked_, options);
@@ -140,46 +189,48 @@ void MocapRig::make_ready(MarkerMethod method, const capture::MarkerSet& set) {
     const bool masks = method == MarkerMethod::bones || method == MarkerMethod::units_bones;
     const bool units = method == MarkerMethod::units || method == MarkerMethod::units_bones;
     if (!masks && !units && !target_.is_scan) return;
-    expressions_ = std::make_unique<const builtin::BuiltinExpressions>();
-    geometry::Mesh skin;
-    skin.vertices_mm = target_.mesh.vertices_mm;
-    skin.faces = target_.mesh.faces;
-    prepared_ = std::make_unique<const animation::PreparedTarget>(geometry::face_surface(skin, target_.landmarks),
-                                                                  expressions_->average(), target_.name);
+    target_.prepare();
     // Any dense model knows the template of these expressions, which is then bent on to the target once.
     const auto& catalogue = facs::builtin_catalogue();
-    const auto registrations = expressions_->model(catalogue, *catalogue.find_expression("12")).dense->registrations;
-    parts_ = animation::vertex_parts(*prepared_, registrations, set);
-    if (units) units_ = builtin::unit_fields(*expressions_, catalogue, *prepared_);
-    if (target_.is_scan && !set.openings.empty()) cut_lips();
+    const auto registrations =
+        target_.expressions->model(catalogue, *catalogue.find_expression("12")).dense->registrations;
+    parts_ = animation::vertex_parts(*target_.prepared, registrations, set);
+    if (units) units_ = builtin::unit_fields(*target_.expressions, catalogue, *target_.prepared);
+    if (target_.is_scan && !set.openings.empty()) cut_openings();
 }
 
-/// A scan is one surface from lip to lip; what bridges them would be drawn out like a curtain.
-void MocapRig::cut_lips() {
+/// A scan is one surface from lip to lip and from lid to eyeball; what bridges them would be drawn out like a curtain,
+/// or folded.
+void MocapRig::cut_openings() {
+    using animation::LidSheet;
     constexpr std::uint32_t upper = capture::part_bit(0, true), lower = capture::part_bit(0, false);
-    const auto bridges = [&](const geometry::Triangle& t) {
-        bool above = false, below = false;
-        for (const auto v : t) {
-            above = above || parts_[v] == upper;
-            below = below || parts_[v] == lower;
-        }
-        return above && below;
-    };
-    std::vector<geometry::Triangle> kept;
-    for (const auto& t : target_.triangles)
-        if (!bridges(t)) kept.push_back(t);
-    const auto cut = target_.triangles.size() - kept.size();
+    const auto lids = animation::lid_sheets(*target_.prepared);
+    std::vector<std::uint32_t> sheet;
+    for (std::size_t v = 0; v < parts_.size(); ++v) {
+        const std::uint32_t lip = parts_[v] == upper ? 1 : parts_[v] == lower ? 2 : 0;
+        sheet.push_back(lip + 4 * static_cast<std::uint32_t>(lids[v]));
+    }
+    const auto& mesh = target_.mesh;
+    std::vector<std::uint8_t> bridges(mesh.faces.size(), 0);
+    for (std::size_t f = 0; f < bridges.size(); ++f)
+        for (const auto a : mesh.faces[f])
+            for (const auto b : mesh.faces[f]) {
+                const bool lips = sheet[a] % 4 == 1 && sheet[b] % 4 == 2;
+                if (lips || (lids[a] != lids[b] && lids[a] != LidSheet::neither && lids[b] != LidSheet::neither))
+                    bridges[f] = 1;
+            }
+    const auto cut = static_cast<std::size_t>(std::count(bridges.begin(), bridges.end(), 1));
     if (cut == 0) return;
-    remarks_.push_back(fmt::format("{} between the lips left out, so that they can part",
+    remarks_.push_back(fmt::format("{} between lips and lids cut, so that they can part",
                                    base::counted(cut, "triangle", "triangles")));
-    target_.triangles = std::move(kept);
-    target_.mesh.faces = {};
-    for (const auto& t : target_.triangles) target_.mesh.faces.add(t);
+    surface_ = animation::open_between_sheets(mesh, bridges, sheet);
+    animation::colour_inside(surface_, report::painted_skin);
 }
 
 geometry::Mesh MocapRig::moved(std::span<const Vector> displacement_mm) const {
-    auto mesh = target_.mesh;
-    for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v) mesh.vertices_mm[v] += displacement_mm[v];
+    auto mesh = surface_.mesh;
+    for (std::size_t v = 0; v < mesh.vertices_mm.size(); ++v)
+        mesh.vertices_mm[v] += displacement_mm[surface_.moves_with[v]];
     return mesh;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "animation/marker_animator.h"
+#include "animation/open_inside.h"
 #include "animation/prepared_target.h"
 #include "builtin/builtin_expressions.h"
 #include "capture/marker_set.h"
@@ -31,8 +32,13 @@ struct MocapTarget {
     std::vector<geometry::Triangle> triangles;
     geometry::Landmarks landmarks, labels;
     io::MadeBy made_by;
-    bool is_scan = false;  ///< one surface from lip to lip: faces between lips that part are left out
+    bool is_scan = false;  ///< one surface from lip to lip and lid to eyeball, which is cut where lips and lids part
     std::vector<std::string> remarks;
+    /// What knows of lids and AUs, and the target before it; where it was needed.
+    std::shared_ptr<const builtin::BuiltinExpressions> expressions;
+    std::shared_ptr<const animation::PreparedTarget> prepared;
+
+    void prepare();
 };
 /// @throws InputError naming what is missing.
 [[nodiscard]] MocapTarget read_mocap_target(const MocapTargetArguments& arguments, const capture::MarkerSet& set);
@@ -48,7 +54,9 @@ public:
     [[nodiscard]] std::span<const std::string> tracked() const { return tracked_; }
     [[nodiscard]] const animation::UnitFields& units() const { return units_; }
     [[nodiscard]] std::span<const std::string> remarks() const { return remarks_; }
-    /// The mesh as a motion moves it. @param displacement_mm  per vertex
+    /// The target as it is drawn and written: of a scan, lips that can part and a dark inside behind them.
+    [[nodiscard]] const animation::OpenableSurface& surface() const { return surface_; }
+    /// It as a motion moves it. @param displacement_mm  per vertex of the target
     [[nodiscard]] geometry::Mesh moved(std::span<const geometry::Vector> displacement_mm) const;
     /// How far the skin at every label is from where its marker is.
     [[nodiscard]] std::vector<double> marker_errors_mm(std::span<const geometry::Point> markers_mm,
@@ -56,12 +64,11 @@ public:
 
 private:
     void make_ready(animation::MarkerMethod method, const capture::MarkerSet& set);
-    void cut_lips();
+    void cut_openings();
 
     MocapTarget target_;
+    animation::OpenableSurface surface_;
     std::vector<std::string> tracked_, remarks_;
-    std::unique_ptr<const builtin::BuiltinExpressions> expressions_;
-    std::unique_ptr<const animation::PreparedTarget> prepared_;
     std::vector<std::uint32_t> parts_;
     animation::UnitFields units_;
     std::unique_ptr<const animation::MarkerAnimator> animator_;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "animation/face_export.h"
+#include "animation/open_inside.h"
 #include "animation/torn_faces.h"
 #include "base/errors.h"
 #include "geometry/box.h"
@@ -29,7 +30,6 @@ namespace {
 
 constexpr Colour filled_colour = {236, 228, 222};  // skin's own lightness with less of its colour
 constexpr Colour marked_colour = {150, 190, 120};  // as on quality sheets
-constexpr Colour mouth_colour = {74, 44, 42};
 
 geometry::BridgedVertices bridged_of(HoleDrawing holes) {
     return holes == HoleDrawing::gap ? geometry::BridgedVertices::leave_out : geometry::BridgedVertices::keep;
@@ -51,7 +51,8 @@ Colour inside_colour(double longest_mm) {
     const double t = std::clamp((longest_mm - closed_mm) / (open_mm - closed_mm), 0.0, 1.0);
     Colour colour{};
     for (std::size_t k = 0; k < 3; ++k)
-        colour[k] = static_cast<std::uint8_t>(std::lround(figures::skin[k] + t * (mouth_colour[k] - figures::skin[k])));
+        colour[k] = static_cast<std::uint8_t>(
+            std::lround(figures::skin[k] + t * (animation::inside_colour[k] - figures::skin[k])));
     return colour;
 }
 

@@ -67,7 +67,9 @@ Eigen::Vector3d FacePainter::colour(std::size_t triangle, const Eigen::Vector3d&
         return {static_cast<double>(texture_.rgb[at]), static_cast<double>(texture_.rgb[at + 1]),
                 static_cast<double>(texture_.rgb[at + 2])};
     }
-    if (colours_.empty()) return {222, 190, 172};
+    if (colours_.empty())
+        return {static_cast<double>(painted_skin[0]), static_cast<double>(painted_skin[1]),
+                static_cast<double>(painted_skin[2])};
     Eigen::Vector3d mixed = Eigen::Vector3d::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
         const auto& c = colours_[triangles_[triangle][k]];

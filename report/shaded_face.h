@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +11,9 @@
 #include "io/image.h"
 
 namespace mimik::report {
+
+/// Of a face without colours and picture.
+inline constexpr std::array<std::uint8_t, 3> painted_skin = {222, 190, 172};
 
 struct ShadedFaceOptions {
     int width = 480, height = 480;  ///< pixels

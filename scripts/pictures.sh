@@ -239,6 +239,12 @@ awk '
     print "<text transform=\"translate(20 146) rotate(-90)\" fill=\"#333333\">weight</text>"
     print "</svg>" }' >made/expression_mapping.svg
 
+# Planar bones: the control surface of a recording, and the face that it moves.
+"$mimik" mocap synthesize take --seconds 2.25 --rate 20 --truth-every 0 --quiet >/dev/null
+"$mimik" mocap animate take/recording_b.c3d --jig jig_1,jig_2,jig_3,jig_4,jig_5,jig_6,jig_7 --target take/target.ply \
+  --landmarks take/target_landmarks.csv --method bones -o take/bones.glb --components 1 --every 45 \
+  --sheet made/planar_bones.png --panels 4 --quiet >/dev/null
+
 for picture in made/*.png; do pngquant --force --ext .png --nofs --speed 1 256 "$picture"; done
 cd - >/dev/null
 for picture in docs/images/*; do

@@ -13,6 +13,7 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "base/random_stream.h"
+#include "capture/stick_markers.h"
 #include "geometry/face_axes.h"
 
 namespace mimik::synthesis {
@@ -147,11 +148,9 @@ Performer::Performer(const FaceModel& model, const std::string& name, std::uint6
       subject_(draw_subject(model, name, seed, exact_people(spread))),
       landmarks_(landmarks_of(model, subject_.resting_mm)),
       skin_(subject_.resting_mm, geometry::triangulate(model.faces())) {
-    const auto places = capture::place_markers(set, landmarks_);
-    for (const auto& mark : places.all()) {
-        bound_.push_back(skin_.closest(mark.position_mm));
-        (set.find(mark.name) ? names_ : derived_).push_back(mark.name);
-    }
+    auto stuck = capture::stick_markers(set, landmarks_, skin_);
+    for (auto& marker : stuck.names) (set.find(marker) ? names_ : derived_).push_back(std::move(marker));
+    bound_ = std::move(stuck.places);
     const double unit = geometry::outer_eye_distance_mm(landmarks_);
     const Point above = 0.5 * (landmarks_.position_mm("brow_inner_left") + landmarks_.position_mm("brow_inner_right"));
     constexpr std::array<std::array<double, 3>, 7> places_of_jig = {{{0, 0.9, -0.1},

@@ -39,6 +39,13 @@ TEST(Performance, has_68_markers_on_the_skin_and_a_jig_of_seven) {
         EXPECT_LT((at[k] - performer().labels().position_mm(performer().marker_names()[k])).norm(), 1e-9);
 }
 
+TEST(Performance, labels_of_the_midline_are_on_it) {
+    const auto places = capture::place_markers(capture::builtin_marker_set(), performer().landmarks());
+    // What is marked there itself may be off it by as much as its landmark; what lies between landmarks may not.
+    for (const char* name : {"nose_root", "nose_bridge", "glabella", "forehead_low", "forehead_high", "chin_fold"})
+        EXPECT_NEAR(performer().labels().position_mm(name).x(), places.position_mm(name).x(), 1e-9) << name;
+}
+
 TEST(Performance, recording_a_ramps_every_unit_alone_from_rest_to_full_and_back) {
     const auto score = ramped_score(units_that_show(model()), short_options());
     ASSERT_EQ(score.frames(), 12 * score.units.size());
