@@ -1,7 +1,6 @@
 // mimik-video is a program of its own: OpenCV's video modules take longer to load than all of `mimik`.
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -199,9 +198,7 @@ void train(const TrainArguments& arguments) {
 }
 
 int run_video(int argc, char** argv) {
-    // FFmpeg and OpenCV tell of every oddity of a file; what matters is said by us.
-    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
-    setenv("OPENCV_LOG_LEVEL", "SILENT", 0);    // NOLINT(concurrency-mt-unsafe)
+    video::silence_decoders();  // what matters is said by us
     // Images of a patch come and go with every frame: their pages stay, so that the system need not clear them anew.
     constexpr int kept_bytes = 64 << 20;
     mallopt(M_MMAP_THRESHOLD, kept_bytes);

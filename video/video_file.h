@@ -12,6 +12,10 @@ namespace mimik::video {
 /// OpenCV's functions stay on the thread that calls them.
 void use_one_thread();
 
+/// OpenCV and FFmpeg keep to themselves what they find odd in a file; OPENCV_LOG_LEVEL and OPENCV_FFMPEG_LOGLEVEL in
+/// the environment say otherwise. Before any thread.
+void silence_decoders();
+
 /// The number of a camera ("0"), or its device ("/dev/video0").
 [[nodiscard]] bool names_a_camera(const std::string& source);
 
@@ -36,15 +40,16 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// An MP4 (MPEG-4 part 2, which every OpenCV writes). The file is there under its name when finish() has run.
+/// An MP4 (MPEG-4 part 2, which every OpenCV writes). The file is there under its name when finish() has run; until
+/// then frames go into a temporary beside it (base/temporary.h), which touches nobody's file.
 class VideoWriter {
 public:
-    /// @throws InputError if the name does not end in .mp4 or nothing can be written there
+    /// @throws InputError if the name does not end in .mp4 or is a folder's, or nothing can be written there
     VideoWriter(const std::filesystem::path& file, double rate_hz);
     ~VideoWriter();
     /// All frames have the size of the first; an odd last row or column is left out.
     void add(const io::Image& frame);
-    /// @throws InputError if the file does not hold every frame, such as on a full disk; it is then removed
+    /// @throws InputError if the file would not hold every frame, such as on a full disk; what has its name is kept
     void finish();
 
 private:

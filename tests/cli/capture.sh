@@ -67,6 +67,7 @@ claim "a performer's own colours are learnt and used"
 echo "no video" >text.mp4
 head -c 2000 made.mp4 >cut.mp4
 expect_code 2 "text.mp4: no frame can be decoded" "$mimik" capture text.mp4 -o o.csv
+[ "$(wc -l <err.txt)" = 1 ] || { cat err.txt; fail "OpenCV speaks, too"; }
 expect_code 2 "cut.mp4: no frame can be decoded" "$mimik" capture cut.mp4 -o o.csv
 expect_code 2 "nowhere.mp4: there is no such file" "$mimik" capture nowhere.mp4 -o o.csv
 expect_code 2 "camera 0: never ends" "$mimik" capture 0 -o o.csv
