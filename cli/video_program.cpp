@@ -102,6 +102,19 @@ private:
     std::size_t given_ = 0;
 };
 
+/// What a video is like, for 'mimik perform': a JSON file.
+void look(const std::string& source, const std::string& output) {
+    video::VideoReader reader(source);
+    io::Image first;
+    if (!reader.next(first)) throw InputError(fmt::format("{}: no frame can be decoded", source));
+    base::write_atomically(output, io::json_text(nlohmann::ordered_json{{"schema", 1},
+                                                                        {"width", first.width},
+                                                                        {"height", first.height},
+                                                                        {"height_beside", video::beside_height(first)},
+                                                                        {"frames", reader.frames()},
+                                                                        {"rate_hz", reader.rate_hz()}}));
+}
+
 void write_video(const WriteArguments& arguments) {
     const auto files = pictures_in(arguments.folder);
     std::vector<std::vector<fs::path>> beside;
@@ -120,11 +133,11 @@ void write_video(const WriteArguments& arguments) {
         std::vector<io::Image> pictures = {io::read_png(files[k])};
         for (const auto& folder : beside) pictures.push_back(io::read_png(folder[k]));
         if (performer) {
-            writer.add(video::beside(performer->next(), pictures));
+            writer.add(video::beside(performer->next(), pictures, pictures.front().height));
         } else {
             const io::Image first = pictures.front();
             pictures.erase(pictures.begin());
-            writer.add(pictures.empty() ? first : video::beside(first, pictures));
+            writer.add(pictures.empty() ? first : video::beside(first, pictures, first.height));
         }
     }
     writer.finish();
@@ -231,6 +244,12 @@ int run_video(int argc, char** argv) {
     writing->add_option("--motion", write.motion, "Feature motion of that video (.csv): its curves are drawn on");
     writing->add_flag("--quiet", write.quiet, "Say nothing but errors");
     writing->callback([&] { write_video(write); });
+
+    std::string looked_at, facts;
+    auto* looking = app.add_subcommand("look", "Size, rate and number of frames of a video, as JSON");
+    looking->add_option("VIDEO", looked_at, "Video file")->required();
+    looking->add_option("-o,--output", facts, "JSON file")->required();
+    looking->callback([&] { look(looked_at, facts); });
 
     std::string prefix;
     video::PerformanceOptions performance;

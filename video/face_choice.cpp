@@ -9,11 +9,10 @@
 namespace mimik::video {
 
 void FaceChoiceOptions::check() const {
-    constexpr int most_faces = 100;
     if (rank < 1 || rank > most_faces)
         throw InputError(fmt::format("rank is {}; give 1 for the largest face, to {}", rank, most_faces));
     if (x_px.has_value() != y_px.has_value()) throw InputError("x_px and y_px go together; give both or neither");
-    if (x_px && !(*x_px >= 0 && *y_px >= 0 && *x_px < 1e5 && *y_px < 1e5))
+    if (x_px && !may_be_pixel(*x_px, *y_px))
         throw InputError(fmt::format("x_px, y_px are {}, {}; give a pixel of the frame", *x_px, *y_px));
     if (wait_frames < 0) throw InputError(fmt::format("wait_frames is {}; give 0 or more", wait_frames));
 }

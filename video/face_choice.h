@@ -16,6 +16,10 @@ struct FaceBox {
     [[nodiscard]] Pixel middle() const { return corner + Pixel(0.5 * size_px, 0.5 * size_px); }
 };
 
+inline constexpr int most_faces = 100;  ///< that are counted in a picture
+/// Whether a frame of some size may have such a pixel.
+[[nodiscard]] constexpr bool may_be_pixel(double x, double y) { return x >= 0 && y >= 0 && x < 1e5 && y < 1e5; }
+
 /// Which of several faces in a picture is the performer's.
 struct FaceChoiceOptions {
     int rank = 1;                                ///< by size: 1 is the largest, 2 the next

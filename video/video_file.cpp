@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <system_error>
@@ -62,6 +63,8 @@ struct VideoReader::Parts {
     cv::Mat frame, first;
     bool camera = false;
     double time_ms = 0;
+    std::chrono::steady_clock::time_point began, last;  ///< the first frame and the last were given
+    long given = 0;
 };
 
 VideoReader::VideoReader(const std::string& source) : parts_(std::make_unique<Parts>()) {
@@ -127,7 +130,30 @@ bool VideoReader::next(io::Image& frame) {
     frame.rgb.resize(3 * from.total());
     cv::Mat to(from.rows, from.cols, CV_8UC3, frame.rgb.data());
     cv::cvtColor(from, to, from.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
+    parts_->last = std::chrono::steady_clock::now();
+    if (parts_->given++ == 0) parts_->began = parts_->last;
     return true;
+}
+
+std::pair<long, double> VideoReader::frames_and_seconds() const {
+    if (parts_->given == 0) return {0, 0};
+    return {parts_->given - 1, std::chrono::duration<double>(parts_->last - parts_->began).count()};
+}
+
+std::optional<std::string> rate_remark(long frames, double seconds, double said_hz) {
+    constexpr double alike = 0.05;  // a camera's clock and ours; and a frame more or less in the first second
+    if (!(seconds >= 1 && said_hz > 0)) return std::nullopt;
+    const double rate_hz = static_cast<double>(frames) / seconds;
+    if (std::abs(rate_hz - said_hz) <= alike * said_hz) return std::nullopt;
+    return fmt::format(
+        "gave {:.1f} frames a second and says {:g}, which times and videos go by: motion is shown {:.2f} times as fast",
+        rate_hz, said_hz, said_hz / rate_hz);
+}
+
+std::optional<std::string> camera_rate_remark(const VideoReader& reader) {
+    if (!reader.is_camera()) return std::nullopt;
+    const auto [frames, seconds] = reader.frames_and_seconds();
+    return rate_remark(frames, seconds, reader.rate_hz());
 }
 
 struct VideoWriter::Parts {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "io/image.h"
 
@@ -34,11 +35,19 @@ public:
     [[nodiscard]] bool is_camera() const;
     /// When the last frame is shown, as the file says; none: it does not say.
     [[nodiscard]] std::optional<double> time_s() const;
+    /// Since the first call of next(): frames but that one, and the time that they took to come.
+    [[nodiscard]] std::pair<long, double> frames_and_seconds() const;
 
 private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
+
+/// What is to be said where frames came at another rate than their source says, which rows and videos go by; none where
+/// both agree within a twentieth, or a second has not passed.
+[[nodiscard]] std::optional<std::string> rate_remark(long frames, double seconds, double said_hz);
+/// The same of a camera; none of a file, whose frames come as fast as they are asked for.
+[[nodiscard]] std::optional<std::string> camera_rate_remark(const VideoReader& reader);
 
 /// An MP4 (MPEG-4 part 2, which every OpenCV writes). The file is there under its name when finish() has run; until
 /// then frames go into a temporary beside it (base/temporary.h), which touches nobody's file.

@@ -18,6 +18,9 @@ expect_code 2 "--face is '3,x'; a pixel has two numbers" "$mimik" capture take.m
 expect_code 2 "--tracker is 'best'; there are paper, dlib and onnx" "$mimik" capture take.mp4 -o x.csv --tracker best
 expect_code 2 "--tracker onnx: --model is missing" "$mimik" capture take.mp4 -o x.csv --tracker onnx
 expect_code 2 "--model is 'a.onnx'; it goes with --tracker onnx" "$mimik" capture take.mp4 -o x.csv --model a.onnx
+expect_code 2 "--colours: is empty; name a file, or leave it out" "$mimik" capture take.mp4 -o x.csv --colours ""
+expect_code 2 "--neutral is '0:5000'; give two frames A:B with A <= B < 1000" \
+  "$mimik" capture take.mp4 -o x.csv --neutral 0:5000
 claim "without OpenCV's program it is said what to install, and options are checked before"
 
 video=$(dirname "$mimik")/mimik-video

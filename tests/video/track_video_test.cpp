@@ -48,6 +48,14 @@ TEST(VideoWriter, frames_of_two_sizes_and_other_formats_are_refused_and_nothing_
     EXPECT_FALSE(std::filesystem::exists(place("two.mp4")));
 }
 
+TEST(RateRemark, says_by_how_much_motion_is_too_fast_where_a_camera_gives_fewer_frames_than_it_says) {
+    EXPECT_FALSE(rate_remark(300, 10, 30));
+    EXPECT_FALSE(rate_remark(291, 10, 30));  // within a twentieth
+    EXPECT_FALSE(rate_remark(10, 0.9, 30));  // too short to tell
+    EXPECT_THAT(rate_remark(120, 10, 30).value_or(""), testing::HasSubstr("gave 12.0 frames a second and says 30"));
+    EXPECT_THAT(rate_remark(120, 10, 30).value_or(""), testing::HasSubstr("2.50 times as fast"));
+}
+
 io::Image blank(int side_px) {
     io::Image made;
     made.width = made.height = side_px;
