@@ -192,12 +192,12 @@ void run_live(const LiveArguments& arguments) {
     LiveFace face(arguments, reader.rate_hz(), options.neutral_from);
     LiveReport report;
     report.from_camera = reader.is_camera();
-    if (arguments.weights.empty())
-        follow(arguments, *tracker, face, reader, options, nullptr, report);
-    else
+    check_by_option(option_of_pixel, [&] {
+        if (arguments.weights.empty()) return follow(arguments, *tracker, face, reader, options, nullptr, report);
         base::write_atomically(arguments.weights, [&](std::ostream& weights) {
             follow(arguments, *tracker, face, reader, options, &weights, report);
         });
+    });
     say(arguments, report, tracker->name());
 }
 

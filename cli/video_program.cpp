@@ -38,9 +38,12 @@ void track(const CaptureArguments& arguments) {
     check_capture_options(arguments);
     const auto options = track_options(arguments.tracking, arguments.frames);
     const auto tracker = make_tracker(arguments.tracking);
-    const auto report =
-        video::track_video(arguments.source, *tracker,
-                           {arguments.output, arguments.landmarks68, arguments.sheet, arguments.video}, options);
+    video::TrackVideoReport report;
+    check_by_option(option_of_pixel, [&] {
+        report =
+            video::track_video(arguments.source, *tracker,
+                               {arguments.output, arguments.landmarks68, arguments.sheet, arguments.video}, options);
+    });
     if (!arguments.common.quiet && !arguments.common.json) say_notes(report.remarks);
     if (arguments.common.json)
         std::cout << io::json_text(nlohmann::ordered_json{{"schema", 1},
@@ -196,8 +199,7 @@ void train(const TrainArguments& arguments) {
             if (row == rows.size() || rows[row].frame != f || f % arguments.every != 0) continue;
             if (labelled.size() == most_patches) break;
             const auto& p = rows[row].points;
-            const video::Pixel across = p[45] - p[36];
-            const video::FacePlace place{0.5 * (p[36] + p[45]), across.norm(), std::atan2(across.y(), across.x())};
+            const auto place = video::place_between(p[36], p[45]);
             auto in_patch = p;
             for (auto& at : in_patch) at = place.patch_from_frame(at);
             labelled.push_back({video::cut_patch(frame, place), video::curves_through(in_patch)});

@@ -29,20 +29,39 @@ std::vector<FaceBox> FaceChooser::near(std::span<const FaceBox> faces, const Pix
     return there;
 }
 
+void FaceChooser::look_at(const io::Image& frame) {
+    if (options_.x_px && !(*options_.x_px < frame.width && *options_.y_px < frame.height))
+        throw InputError(fmt::format("x_px, y_px are {}, {}, and frames have {} x {} pixels; give a pixel of the frame",
+                                     *options_.x_px, *options_.y_px, frame.width, frame.height));
+    picture_.look_at(frame);
+    width_px_ = frame.width;
+    height_px_ = frame.height;
+}
+
+bool FaceChooser::may_have_left() const {
+    if (width_px_ == 0 || !last_) return false;
+    const Pixel end = last_->corner + Pixel(last_->size_px, last_->size_px);
+    return last_->corner.minCoeff() < 0 || end.x() > width_px_ || end.y() > height_px_;
+}
+
 std::vector<FaceBox> FaceChooser::candidates(std::span<const FaceBox> faces) const {
-    if (last_ && since_ <= options_.wait_frames) {
-        constexpr double same_size = 1.5;
+    constexpr double same_size = 1.5, same_place = 0.5;
+    const bool waits = last_ && since_ <= options_.wait_frames;
+    if (waits) {
         std::vector<FaceBox> alike;
         for (const auto& face : faces)
             if (face.size_px < same_size * last_->size_px && last_->size_px < same_size * face.size_px)
                 alike.push_back(face);
-        if (auto there = near(alike, last_->middle(), 0.5); !there.empty()) return there;
+        if (auto there = near(alike, last_->middle(), same_place); !there.empty()) return there;
     }
     if (options_.x_px) {
         // One who was pointed at is looked for where they were last: a face elsewhere may be anybody's.
-        if (last_) return near(faces, last_->middle(), 1.5);
+        if (last_) return near(faces, last_->middle(), same_place);
         return near(faces, {*options_.x_px, *options_.y_px}, 0.75);
     }
+    // Who else is in the picture is a neighbour. After a cut it may be the performer, and who went over the picture's
+    // edge comes back anywhere.
+    if (waits && !may_have_left() && !picture_.is_another()) return {};
     if (options_.rank == 1) return {faces.begin(), faces.end()};
     const auto at = static_cast<std::size_t>(options_.rank - 1);
     if (at >= faces.size()) return {};
@@ -52,6 +71,7 @@ std::vector<FaceBox> FaceChooser::candidates(std::span<const FaceBox> faces) con
 void FaceChooser::followed(const FaceBox& face) {
     last_ = face;
     since_ = 0;
+    picture_.keep();
 }
 
 void FaceChooser::lost() { ++since_; }
@@ -59,6 +79,7 @@ void FaceChooser::lost() { ++since_; }
 void FaceChooser::restart() {
     last_.reset();
     since_ = 0;
+    picture_.forget();
 }
 
 }  // namespace mimik::video

@@ -53,6 +53,9 @@ cp sheet.png frames/frame_000001.png
 expect_code 2 "frames2: is no folder" "$video" write frames2 out.mp4
 "$mimik" capture made.mp4 -o asked.csv --neutral 0:1 --face 240,170 --quiet
 cmp motion.csv asked.csv || fail "the one face there is, asked for by its pixel, is another"
+expect_code 2 "--face: x_px, y_px are 5000, 5000, and frames have 480 x 360 pixels" \
+  "$mimik" capture made.mp4 -o far.csv --face 5000,5000
+[ ! -e far.csv ] || fail "a table for nothing"
 "$mimik" capture made.mp4 -o nobody.csv --neutral 0:1 --face 2 2>notes.txt >/dev/null
 [ "$(grep -c ,lost, nobody.csv)" = 4 ] || fail "$(cut -c1-40 nobody.csv)"
 claim "of several faces the one asked for is followed; one that is not there is lost"

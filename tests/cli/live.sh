@@ -60,6 +60,8 @@ CHECK
 grep -qF "made.mp4: ended before the neutral frames did (--neutral 0:9), so the face did not move" notes.txt || fail "$(cat notes.txt)"
 "$mimik" live made.mp4 --examples face -o nobody.mp4 --neutral 0:1 --frames 5 --face 2 >said.txt 2>notes.txt
 grep -qF "made.mp4: no face was found in any frame" notes.txt || fail "$(cat notes.txt)"
+expect_code 2 "--face: x_px, y_px are 480, 10, and frames have 480 x 360 pixels" \
+  "$mimik" live made.mp4 --examples face -o o.mp4 --face 480,10
 claim "the face moves as capture and perform say, and where it does not, that is said"
 
 "$mimik" capture made.mp4 -o motion.csv --neutral 0:1 --quiet >/dev/null
