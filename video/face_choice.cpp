@@ -40,8 +40,9 @@ void FaceChooser::look_at(const io::Image& frame) {
 
 bool FaceChooser::may_have_left() const {
     if (width_px_ == 0 || !last_) return false;
+    const double near_px = 0.5 * last_->size_px;  // what a face goes within a frame or two
     const Pixel end = last_->corner + Pixel(last_->size_px, last_->size_px);
-    return last_->corner.minCoeff() < 0 || end.x() > width_px_ || end.y() > height_px_;
+    return last_->corner.minCoeff() < near_px || end.x() > width_px_ - near_px || end.y() > height_px_ - near_px;
 }
 
 std::vector<FaceBox> FaceChooser::candidates(std::span<const FaceBox> faces) const {
