@@ -259,23 +259,6 @@ std::optional<bool> lips_closed(const geometry::FaceSurface& neutral) {
     return 2 * open < columns;
 }
 
-bool torn_lips(std::span<const preprocessing::LipSide> lip_sides, std::span<const Vector> field_mm,
-               std::span<const std::uint32_t> corners) {
-    constexpr double parted_by_mm = 1.5;
-    using preprocessing::LipSide;
-    if (lip_sides.empty()) return false;
-    for (const auto a : corners)
-        for (const auto b : corners)
-            if (lip_sides[a] == LipSide::upper && lip_sides[b] == LipSide::lower &&
-                (field_mm[a] - field_mm[b]).norm() > parted_by_mm)
-                return true;
-    return false;
-}
-
-bool torn(const AnimatedFace& animated, std::span<const Vector> field_mm, std::span<const std::uint32_t> corners) {
-    return torn_lips(animated.lip_sides, field_mm, corners) || torn_lids(animated.lid_sheets, field_mm, corners);
-}
-
 namespace {
 
 /// Less is told by expressions that leave the lips together (AU 12, 14, 15, 20: up to 0.5 mm by default), more by those

@@ -94,15 +94,6 @@ struct AnimatedFace {
     std::vector<LidSheet> lid_sheets;               ///< per vertex, where lids slide; else empty
 };
 
-/// Whether the surface between some vertices is torn by a motion: they lie on both lips, which part there by more than
-/// one and a half millimetres.
-[[nodiscard]] bool torn_lips(std::span<const preprocessing::LipSide> lip_sides,
-                             std::span<const geometry::Vector> field_mm, std::span<const std::uint32_t> corners);
-
-/// Whether a motion tears the surface between some vertices: between lips, between lids, or between lid and eyeball.
-[[nodiscard]] bool torn(const AnimatedFace& animated, std::span<const geometry::Vector> field_mm,
-                        std::span<const std::uint32_t> corners);
-
 /// The motion of every vertex under one model at magnitude 1, in the target's frame. The field at another magnitude m
 /// is m times this one: the spline is linear in the displacements of its controls. Carries the controls by the landmark
 /// spline (Eq. 5.7) and on to the surface, moves them by Eqs 5.8 / 5.10 and warps by the spline of Eq. 5.9. Lids slide

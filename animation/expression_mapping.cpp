@@ -258,16 +258,25 @@ MappedPerformance map_performance(const capture::FeatureMotion& motion, const Pe
     return mapped;
 }
 
-std::string encode_weights(const MappedPerformance& performance) {
+std::string weights_header(std::span<const std::string> examples) {
     std::string text = "frame,time,state";
-    for (const auto& name : performance.examples) text += ',' + base::csv_field(name);
-    text += '\n';
+    for (const auto& name : examples) text += ',' + base::csv_field(name);
+    return text + '\n';
+}
+
+std::string weights_row(std::size_t frame, double time_s, bool tracked, std::span<const double> weights) {
+    auto text = fmt::format("{},{},{}", frame, time_s, tracked ? "tracked" : "lost");
+    for (const double weight : weights)
+        fmt::format_to(std::back_inserter(text), ",{:.6f}", std::abs(weight) < 5e-7 ? 0.0 : weight);  // no -0
+    return text + '\n';
+}
+
+std::string encode_weights(const MappedPerformance& performance) {
+    auto text = weights_header(performance.examples);
     for (std::size_t frame = 0; frame < performance.times_s.size(); ++frame) {
-        fmt::format_to(std::back_inserter(text), "{},{},{}", frame, performance.times_s[frame],
-                       performance.tracked[frame] ? "tracked" : "lost");
-        for (const double weight : performance.weights.row(static_cast<Eigen::Index>(frame)))
-            fmt::format_to(std::back_inserter(text), ",{:.6f}", std::abs(weight) < 5e-7 ? 0.0 : weight);  // no -0
-        text += '\n';
+        const Eigen::VectorXd row = performance.weights.row(static_cast<Eigen::Index>(frame));
+        text += weights_row(frame, performance.times_s[frame], performance.tracked[frame] != 0,
+                            {row.data(), static_cast<std::size_t>(row.size())});
     }
     return text;
 }

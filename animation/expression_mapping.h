@@ -143,7 +143,10 @@ struct MappedPerformance {
 [[nodiscard]] MappedPerformance map_performance(const capture::FeatureMotion& motion, const PerformerRest& rest,
                                                 const ExpressionMapping& mapping);
 
-/// "frame,time,state,NAME,...": weights as they go to the face.
+/// "frame,time,state,NAME,...": the first line of a table of weights, and a line of it, each with its end.
+[[nodiscard]] std::string weights_header(std::span<const std::string> examples);
+[[nodiscard]] std::string weights_row(std::size_t frame, double time_s, bool tracked, std::span<const double> weights);
+/// That table: weights as they go to the face.
 [[nodiscard]] std::string encode_weights(const MappedPerformance& performance);
 
 }  // namespace mimik::animation

@@ -22,7 +22,7 @@ public:
     /// @throws InputError, NumericalError if there is no answer for this face.
     [[nodiscard]] virtual geometry::DisplacementField on(const PreparedTarget& target) const = 0;
     /// Per vertex of the target, on which lip it lies, so that who draws the face can leave out the surface between
-    /// lips that part (torn_lips); empty: not known. @throws as on().
+    /// lips that part (torn_faces); empty: not known. @throws as on().
     [[nodiscard]] virtual std::vector<preprocessing::LipSide> lip_sides(const PreparedTarget&) const { return {}; }
 };
 

@@ -1,13 +1,15 @@
 #include "cli/capture_options.h"
 
-#include <filesystem>
-#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "cli/named_files.h"
+#include "video/face_choice.h"
+#include "video/track_video.h"
 
 namespace mimik::cli {
 
@@ -22,17 +24,20 @@ void add_tracking_options(CLI::App& command, TrackingArguments& arguments) {
         ->capture_default_str();
     command.add_option("--tracker", arguments.tracker, "What follows the face: paper, dlib, or onnx with --model")
         ->capture_default_str();
-    command.add_option("--model", arguments.model, "Net of the 68 points, .onnx (docs/algorithms/video_capture.md)");
-    command.add_option("--colours", arguments.colours, "Colour network of the performer (mimik-video train)");
+    command.add_option("--model", arguments.model, "Net of the 68 points, .onnx (docs/algorithms/video_capture.md)")
+        ->check(named_file());
+    command.add_option("--colours", arguments.colours, "Colour network of the performer (mimik-video train)")
+        ->check(named_file());
     command.add_flag("--smooth", arguments.smooth, "One-euro filter; what is still lags by 80 ms, what moves by less");
 }
 
 void add_capture_options(CLI::App& command, CaptureArguments& arguments) {
     command.add_option("VIDEO", arguments.source, "Video file, or a camera: its number or /dev/videoN")->required();
     command.add_option("-o,--output", arguments.output, "Feature motion, .csv (docs/formats.md)")->required();
-    command.add_option("--landmarks68", arguments.landmarks68, "The 68 usual points too, .csv, in pixels");
-    command.add_option("--sheet", arguments.sheet, "Close-ups with the curves drawn on, .png");
-    command.add_option("--video", arguments.video, "The frames with the curves drawn on, .mp4");
+    command.add_option("--landmarks68", arguments.landmarks68, "The 68 usual points too, .csv, in pixels")
+        ->check(named_file());
+    command.add_option("--sheet", arguments.sheet, "Close-ups with the curves drawn on, .png")->check(named_file());
+    command.add_option("--video", arguments.video, "The frames with the curves drawn on, .mp4")->check(named_file());
     add_tracking_options(command, arguments.tracking);
     command.add_option("--frames", arguments.frames, "Stops after so many; 0: at the end")->capture_default_str();
     add_common_options(command, arguments.common);
@@ -45,10 +50,14 @@ void add_live_options(CLI::App& command, LiveArguments& arguments) {
         .add_option("--examples", arguments.examples,
                     "Folder of 'mimik examples', or your own with examples.toml: the face that is moved")
         ->required();
-    command.add_option("-o,--output", arguments.output, "Performer and face, .mp4, in the place of a window");
+    command.add_option("-o,--output", arguments.output, "Performer and face, .mp4, in the place of a window")
+        ->check(named_file());
     add_tracking_options(command, arguments.tracking);
-    command.add_option("--source-examples", arguments.source_examples,
-                       "Table of what features do in the examples (features.csv of 'mimik examples')");
+    command
+        .add_option("--source-examples", arguments.source_examples,
+                    "Table of what features do in the examples (features.csv of 'mimik examples')")
+        ->check(named_file());
+    command.add_option("--weights", arguments.weights, "Write the weights as a table, too (.csv)")->check(named_file());
     command.add_option("--gain", arguments.gain, "Below 1 attenuates, above exaggerates")->capture_default_str();
     command.add_flag("--clamp", arguments.clamp, "Keep weights between 0 and 1, before the gain");
     command.add_option("--frames", arguments.frames, "Stops after so many; 0: at the end, or at the key q")
@@ -59,61 +68,32 @@ void add_live_options(CLI::App& command, LiveArguments& arguments) {
 FaceChoice face_choice(const std::string& text) {
     const auto fail = [&](const char* why) -> void {
         throw InputError(fmt::format(
-            "--face is '{}'; {}: N of 1 (the largest) to 100, or X,Y in pixels of the frame, such as 320,240", text,
-            why));
+            "--face is '{}'; {}: N of 1 (the largest) to {}, or X,Y in pixels of the frame, such as 320,240", text, why,
+            video::most_faces));
     };
     FaceChoice choice;
     const auto comma = text.find(',');
     if (comma == std::string::npos) {
         const auto rank = base::parse_integer(text).value_or(0);
-        if (rank < 1 || rank > 100) fail("give the number of a face or a pixel");
+        if (rank < 1 || rank > video::most_faces) fail("give the number of a face or a pixel");
         choice.rank = static_cast<int>(rank);
         return choice;
     }
     const auto x = base::parse_double(text.substr(0, comma)), y = base::parse_double(text.substr(comma + 1));
-    if (!x || !y || !(*x >= 0 && *y >= 0 && *x < 1e5 && *y < 1e5)) fail("a pixel has two numbers of 0 or more");
+    if (!x || !y || !video::may_be_pixel(*x, *y)) fail("a pixel has two numbers of 0 or more");
     choice.pixel = {*x, *y};
     return choice;
 }
 
 std::array<int, 2> neutral_frames(const std::string& text) {
-    constexpr std::int64_t most = 1'000'000;
     const auto colon = text.find(':');
     const auto from = base::parse_integer(text.substr(0, colon)).value_or(-1);
     const auto to = colon == std::string::npos ? -1 : base::parse_integer(text.substr(colon + 1)).value_or(-1);
-    if (from < 0 || to < from || to > most)
-        throw InputError(fmt::format("--neutral is '{}'; give two frames A:B with A <= B, such as 0:9", text));
+    if (from < 0 || to < from || to >= video::most_waiting_frames)
+        throw InputError(fmt::format("--neutral is '{}'; give two frames A:B with A <= B < {}, such as 0:9", text,
+                                     video::most_waiting_frames));
     return {static_cast<int>(from), static_cast<int>(to)};
 }
-
-namespace {
-
-void check_ending(const char* option, const std::string& file, const char* extension) {
-    if (file.empty() || base::equal_ignoring_case(std::filesystem::path(file).extension().string(), extension)) return;
-    throw InputError(fmt::format("{} is '{}'; it is written as {}", option, file, extension));
-}
-
-bool are_one_file(const std::string& a, const std::string& b) {
-    std::error_code none;
-    if (std::filesystem::equivalent(a, b, none)) return true;
-    const auto from = std::filesystem::weakly_canonical(a, none), to = std::filesystem::weakly_canonical(b, none);
-    return a == b || (!from.empty() && from == to);
-}
-
-struct NamedFile {
-    const char* option;
-    const std::string& file;
-};
-/// Nothing is written over what is read, nor over what else is written. @param read  how many stand first
-void check_files_differ(const std::vector<NamedFile>& files, std::size_t read) {
-    for (std::size_t k = read; k < files.size(); ++k)
-        for (std::size_t other = 0; other < k; ++other)
-            if (!files[k].file.empty() && !files[other].file.empty() && are_one_file(files[k].file, files[other].file))
-                throw InputError(fmt::format("{} is '{}', the same file as {}; give it another name", files[k].option,
-                                             files[k].file, files[other].option));
-}
-
-}  // namespace
 
 void check_tracking_options(const TrackingArguments& arguments) {
     (void)neutral_frames(arguments.neutral);
@@ -129,26 +109,38 @@ void check_tracking_options(const TrackingArguments& arguments) {
         throw InputError(fmt::format("--colours is '{}'; it goes with --tracker paper", arguments.colours));
 }
 
+namespace {
+
+std::vector<NamedFile> files_read(const std::string& source, const TrackingArguments& tracking) {
+    return {{"VIDEO", source}, {"--colours", tracking.colours}, {"--model", tracking.model}};
+}
+
+}  // namespace
+
 void check_capture_options(const CaptureArguments& arguments) {
     if (arguments.output.empty()) throw InputError("--output is empty; name a .csv file");
     check_ending("--output", arguments.output, ".csv");
     check_ending("--landmarks68", arguments.landmarks68, ".csv");
     check_ending("--sheet", arguments.sheet, ".png");
     check_ending("--video", arguments.video, ".mp4");
-    check_files_differ({{"VIDEO", arguments.source},
-                        {"--colours", arguments.tracking.colours},
-                        {"--model", arguments.tracking.model},
-                        {"--output", arguments.output},
-                        {"--landmarks68", arguments.landmarks68},
-                        {"--sheet", arguments.sheet},
-                        {"--video", arguments.video}},
-                       3);
+    auto files = files_read(arguments.source, arguments.tracking);
+    const auto read = files.size();
+    files.insert(files.end(), {{"--output", arguments.output},
+                               {"--landmarks68", arguments.landmarks68},
+                               {"--sheet", arguments.sheet},
+                               {"--video", arguments.video}});
+    check_files_differ(files, read);
     check_tracking_options(arguments.tracking);
 }
 
 void check_live_options(const LiveArguments& arguments) {
     check_ending("--output", arguments.output, ".mp4");
-    check_files_differ({{"VIDEO", arguments.source}, {"--output", arguments.output}}, 1);
+    check_ending("--weights", arguments.weights, ".csv");
+    auto files = files_read(arguments.source, arguments.tracking);
+    files.push_back({"--source-examples", arguments.source_examples});
+    const auto read = files.size();
+    files.insert(files.end(), {{"--output", arguments.output}, {"--weights", arguments.weights}});
+    check_files_differ(files, read);
     check_tracking_options(arguments.tracking);
 }
 

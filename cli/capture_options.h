@@ -42,7 +42,7 @@ struct FaceChoice {
 /// What `mimik live` and `mimik-video live` are told.
 struct LiveArguments {
     Common common;
-    std::string source, output, examples, source_examples;
+    std::string source, output, examples, source_examples, weights;
     TrackingArguments tracking;
     double gain = 1;
     bool clamp = false;

@@ -5,27 +5,25 @@
 #include <chrono>
 #include <iostream>
 #include <optional>
-#include <span>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "animation/blend_examples.h"
 #include "animation/expression_mapping.h"
-#include "animation/facial_examples.h"
 #include "base/errors.h"
+#include "base/file.h"
 #include "base/quantile.h"
 #include "base/text.h"
+#include "cli/live_face.h"
 #include "cli/notes.h"
-#include "cli/performer_examples.h"
 #include "cli/tracker_choice.h"
 #include "cli/video_window.h"
 #include "database/hidden_subjects.h"
 #include "io/json_values.h"
-#include "report/shaded_face.h"
 #include "video/curve_picture.h"
 #include "video/feature_rows.h"
 #include "video/video_file.h"
@@ -75,95 +73,30 @@ private:
     std::array<std::vector<double>, stage_count> ms_;
 };
 
-/// The character, and what it does as the performer's rows come.
-class LiveFace {
-public:
-    LiveFace(const LiveArguments& arguments, double rate_hz) : arguments_(arguments) {
-        options_.gain = arguments.gain;
-        options_.clamp = arguments.clamp;
-        check_by_option({{"gain", "--gain"}}, [&] { options_.check(); });
-        const auto neutral_file = std::filesystem::path(arguments.examples) / "neutral.ply";
-        if (std::filesystem::exists(neutral_file)) database::refuse_hidden_file(neutral_file);
-        character_ = animation::read_facial_examples(arguments.examples);
-        std::vector<std::vector<geometry::Vector>> displacements;
-        for (const auto& example : character_.examples) displacements.push_back(example.displacement_mm);
-        blender_.emplace(character_.neutral.vertices_mm, displacements);
-        vertices_mm_ = character_.neutral.vertices_mm;
-        weights_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(character_.examples.size()));
-        for (const auto& feature : capture::face_features()) motion_.names.emplace_back(feature.name);
-        motion_.rate_hz = rate_hz;
-        table_ = arguments.source_examples.empty() ? modeling::standard_source_examples()
-                                                   : modeling::read_source_examples(arguments.source_examples);
-        (void)examples_of_character(table_, character_, arguments.examples, remarks_);  // before the work
-        remarks_.clear();
-    }
-
-    /// Rows before the performer's rest is known wait for it.
-    void take(const video::FeatureRows::Row& row) {
-        if (mapper_)
-            weights_ = columns_.transpose() * mapper_->next(row.features).weights;
-        else if (row.features.state == capture::TrackState::tracked)
-            motion_.frames.push_back(row.features);
-    }
-    /// Once the neutral frames have been seen.
-    void begin() {
-        if (mapper_ || motion_.frames.empty()) return;
-        auto rest = animation::performer_rest(motion_, 0, motion_.frames.size() - 1);
-        mapping_.emplace(examples_of_character(animation::fitted_examples(table_, motion_, rest), character_,
-                                               arguments_.examples, remarks_),
-                         options_);
-        const auto& names = mapping_->source().examples;
-        const auto count = static_cast<Eigen::Index>(names.size());
-        columns_ = columns_of(character_, names, Eigen::MatrixXd::Identity(count, count), remarks_);
-        mapper_.emplace(motion_, std::move(rest), *mapping_);
-        motion_.frames.clear();
-    }
-    void blend() { blender_->blend({weights_.data(), static_cast<std::size_t>(weights_.size())}, vertices_mm_); }
-    [[nodiscard]] io::Image picture(int size_px) {
-        if (!painter_) {
-            io::Image texture;
-            if (!character_.texture_file.empty()) texture = io::read_image(character_.texture_file);
-            report::ShadedFaceOptions options;
-            options.width = options.height = size_px;
-            painter_.emplace(character_.neutral, std::move(texture), options);
-        }
-        return painter_->picture(vertices_mm_);
-    }
-    [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
-
-private:
-    const LiveArguments& arguments_;
-    animation::ExpressionMappingOptions options_;
-    animation::FacialExamples character_;
-    std::optional<animation::ExampleBlender> blender_;
-    std::optional<report::FacePainter> painter_;
-    modeling::SourceExamples table_;
-    capture::FeatureMotion motion_;  ///< of the neutral frames
-    std::optional<animation::ExpressionMapping> mapping_;
-    std::optional<animation::PerformanceMapper> mapper_;
-    Eigen::MatrixXd columns_;  ///< from the mapping's examples to the character's
-    Eigen::VectorXd weights_;
-    std::vector<geometry::Point> vertices_mm_;
-    std::vector<std::string> remarks_;
-};
-
 struct LiveReport {
     long frames = 0, tracked = 0;
     double seconds = 0;
+    bool from_camera = false;
     StageTimes times;
     std::vector<std::string> remarks;
     [[nodiscard]] double frames_a_second() const { return seconds > 0 ? static_cast<double>(frames) / seconds : 0; }
 };
 
-LiveReport follow(const LiveArguments& arguments, video::FeatureTracker& tracker, LiveFace& face,
-                  video::VideoReader& reader, const video::TrackVideoOptions& options) {
-    LiveReport report;
+/// A file is shown as fast as it was taken; a camera waits by itself.
+void wait_until(Clock::time_point due) {
+    constexpr auto longest = std::chrono::seconds(1);  // a window that is looked after less often seems dead
+    std::this_thread::sleep_until(std::min(due, Clock::now() + longest));
+}
+
+void follow(const LiveArguments& arguments, video::FeatureTracker& tracker, LiveFace& face, video::VideoReader& reader,
+            const video::TrackVideoOptions& options, std::ostream* weights, LiveReport& report) {
     std::optional<video::VideoWriter> file;
     std::optional<VideoWindow> window;
     if (arguments.output.empty())
         window.emplace();
     else
         file.emplace(arguments.output, reader.rate_hz());
+    if (weights) *weights << animation::weights_header(face.examples());
     std::optional<video::FeatureRows> rows;
     io::Image frame;
     const auto begun = Clock::now();
@@ -182,25 +115,34 @@ LiveReport follow(const LiveArguments& arguments, video::FeatureTracker& tracker
         face.blend();
         report.times.end(blending);
         video::draw_face(frame, seen);
-        const auto picture = video::beside(frame, {face.picture(video::beside_height(frame))});
+        const int height_px = video::beside_height(frame);
+        const auto picture = video::beside(frame, {face.picture(height_px)}, height_px);
         report.times.end(drawing);
         if (file) file->add(picture);
-        if (window) {
-            // A file is shown as fast as it was taken.
-            const double due_s = static_cast<double>(report.frames + 1) / reader.rate_hz();
-            const double now_s = std::chrono::duration<double>(Clock::now() - begun).count();
-            const double wait_ms = reader.is_camera() ? 1 : std::clamp(1e3 * (due_s - now_s), 1.0, 1e3);
-            goes_on = window->show(picture, static_cast<int>(wait_ms));
-        }
+        if (window) goes_on = window->show(picture, 1);
         report.times.end(showing);
+        if (weights)
+            *weights << animation::weights_row(static_cast<std::size_t>(report.frames),
+                                               static_cast<double>(report.frames) / reader.rate_hz(), seen.has_value(),
+                                               face.weights());
         ++report.frames;
         report.tracked += seen ? 1 : 0;
+        // Nothing is late by this: it is none of the latencies.
+        if (window && !reader.is_camera())
+            wait_until(begun + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+                                   static_cast<double>(report.frames) / reader.rate_hz())));
     }
     report.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
     if (file) file->finish();
+    const bool began = face.has_begun();  // finish_rows() gives out what waits
+    std::vector<std::string> said;
+    if (rows) said = video::finish_rows(*rows);
+    if (!began && report.tracked > 0)
+        said.push_back(fmt::format("ended before the neutral frames did (--neutral {}:{}), so the face did not move",
+                                   options.neutral_from, options.neutral_to));
+    if (auto remark = video::camera_rate_remark(reader)) said.push_back(std::move(*remark));
     report.remarks = face.remarks();
-    if (report.tracked == 0) report.remarks.push_back(fmt::format("{}: no face was found", arguments.source));
-    return report;
+    for (const auto& remark : said) report.remarks.push_back(fmt::format("{}: {}", arguments.source, remark));
 }
 
 void say(const LiveArguments& arguments, const LiveReport& report, const std::string& tracker) {
@@ -229,7 +171,7 @@ void say(const LiveArguments& arguments, const LiveReport& report, const std::st
     for (std::size_t stage = 0; stage < stage_count; ++stage)
         std::cout << fmt::format("  {:6} {:8.2f} {:8.2f}{}\n", stage_names[stage], report.times.quantile_ms(stage, 0.5),
                                  report.times.quantile_ms(stage, 0.95),
-                                 stage == reading           ? "  (waits for the camera)"
+                                 stage == reading           ? (report.from_camera ? "  (waits for the camera)" : "")
                                  : stage == all_but_reading ? "  (of all but read)"
                                                             : "");
 }
@@ -247,8 +189,15 @@ void run_live(const LiveArguments& arguments) {
     if (!arguments.source_examples.empty()) database::refuse_hidden_file(arguments.source_examples);
     const auto tracker = make_tracker(arguments.tracking);
     video::VideoReader reader(arguments.source);
-    LiveFace face(arguments, reader.rate_hz());
-    const auto report = follow(arguments, *tracker, face, reader, options);
+    LiveFace face(arguments, reader.rate_hz(), options.neutral_from);
+    LiveReport report;
+    report.from_camera = reader.is_camera();
+    check_by_option(option_of_pixel, [&] {
+        if (arguments.weights.empty()) return follow(arguments, *tracker, face, reader, options, nullptr, report);
+        base::write_atomically(arguments.weights, [&](std::ostream& weights) {
+            follow(arguments, *tracker, face, reader, options, &weights, report);
+        });
+    });
     say(arguments, report, tracker->name());
 }
 

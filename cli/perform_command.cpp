@@ -23,6 +23,7 @@
 #include "capture/live_link.h"
 #include "cli/command.h"
 #include "cli/error_report.h"
+#include "cli/named_files.h"
 #include "cli/notes.h"
 #include "cli/performance_commands.h"
 #include "cli/performance_output.h"
@@ -41,9 +42,9 @@ struct Arguments {
     std::vector<std::string> keys;
     std::string rest;
     std::optional<double> rate_hz;
-    double outer_eye_mm = capture::LandmarkTableOptions{}.outer_eye_mm;
+    std::optional<double> outer_eye_mm;
     bool wires = false;
-    int picture_size = 480;
+    std::optional<int> picture_size;
     animation::ExpressionMappingOptions options;
 };
 
@@ -55,12 +56,30 @@ struct MotionTable {
     std::vector<std::string> remarks;
 };
 
+/// What a table says itself is not said by an option. @throws InputError
+void refuse_unread_options(const Arguments& arguments, const MotionTable& table, capture::MotionTableFormat format) {
+    using enum capture::MotionTableFormat;
+    if (arguments.rate_hz && format == features)
+        throw InputError(fmt::format("--rate is {}: {} says its rate, {:g} a second; leave --rate out",
+                                     *arguments.rate_hz, arguments.motion.string(), table.features->rate_hz));
+    const auto has_depth = [&] {
+        for (const auto& frame : table.features->frames)
+            for (const auto& sample : frame.features)
+                if (sample.valid && sample.head_mm.z() != 0) return true;
+        return false;
+    };
+    if (arguments.outer_eye_mm && format != points68 && !(format == openface && !has_depth()))
+        throw InputError(fmt::format("--outer-eye-mm is {}: it is for tables of pixels, and {} is {}; leave it out",
+                                     *arguments.outer_eye_mm, arguments.motion.string(),
+                                     format == live_link ? "one of weights" : "in millimetres"));
+}
+
 MotionTable read_motion(const Arguments& arguments) {
     const auto text = base::read_text(arguments.motion);
     const auto name = arguments.motion.string();
     capture::LandmarkTableOptions options;
     options.rate_hz = arguments.rate_hz;
-    options.outer_eye_mm = arguments.outer_eye_mm;
+    options.outer_eye_mm = arguments.outer_eye_mm.value_or(options.outer_eye_mm);
     check_by_option({{"rate_hz", "--rate"}, {"outer_eye_mm", "--outer-eye-mm"}}, [&] { options.check(); });
     MotionTable table;
     const auto take = [&](capture::LandmarkTable read, const char* format) {
@@ -68,7 +87,8 @@ MotionTable read_motion(const Arguments& arguments) {
         table.remarks = std::move(read.remarks);
         table.format = format;
     };
-    switch (capture::motion_table_format(text, name)) {
+    const auto format = capture::motion_table_format(text, name);
+    switch (format) {
         case capture::MotionTableFormat::features:
             table.features = capture::decode_feature_motion(text, name);
             table.format = "feature motion";
@@ -85,6 +105,7 @@ MotionTable read_motion(const Arguments& arguments) {
             table.format = "Live Link Face";
             break;
     }
+    refuse_unread_options(arguments, table, format);
     return table;
 }
 
@@ -209,6 +230,28 @@ void report(const Arguments& arguments, const MotionTable& table, Outcome& outco
                              base::counted(mapped.examples.size(), "example"));
 }
 
+/// Everything that is read, then everything that is written. @throws InputError if one is the other
+void check_files(const Arguments& arguments) {
+    std::vector<NamedFile> files = {{"MOTION", arguments.motion.string()},
+                                    {"--source-examples", arguments.source_examples.string()},
+                                    {"--video", arguments.clip.string()}};
+    auto folders = arguments.beside;
+    folders.push_back(arguments.examples);
+    for (const auto& folder : folders) {
+        const auto list_file = folder / animation::example_list_name;
+        if (!base::is_there(list_file)) continue;  // said when it is read
+        const auto list = animation::decode_example_list(base::read_text(list_file), list_file.string());
+        const auto add = [&](const std::string& name) {
+            if (!name.empty()) files.push_back({"a file of " + folder.string(), (folder / name).string()});
+        };
+        for (const auto& name : {list.neutral, list.texture, list.features}) add(name);
+        for (const auto& entry : list.entries) add(entry.file);
+    }
+    const auto read = files.size();
+    files.insert(files.end(), {{"--output", arguments.output.string()}, {"--weights", arguments.weights.string()}});
+    check_files_differ(files, read);
+}
+
 void check(const Arguments& arguments) {
     check_by_option(
         {{"gain", "--gain"}, {"least_eigenvalue_share", "--least-eigenvalue-share"}, {"ridge_share", "--ridge"}},
@@ -222,10 +265,8 @@ void check(const Arguments& arguments) {
     if (!is_video && !arguments.beside.empty())
         throw InputError(
             fmt::format("--beside {}: several faces stand in an .mp4 alone", arguments.beside.front().string()));
-    std::error_code none;
-    if (!arguments.clip.empty() && std::filesystem::equivalent(arguments.clip, arguments.output, none))
-        throw InputError(
-            fmt::format("--output is '{}', the same file as --video; give it another name", arguments.output.string()));
+    check_ending("--weights", arguments.weights.string(), ".csv");
+    check_files(arguments);
     check_performance_output(arguments.output);
     for (const auto& file : {arguments.motion, arguments.source_examples})
         if (!file.empty()) database::refuse_hidden_file(file);
@@ -249,7 +290,8 @@ void take_wires(Act& act) {
     act.outcome.details["motion_rms_mm"] = wires.error().motion_rms_mm;
 }
 
-Act act_of(const Arguments& arguments, const MotionTable& table, const std::filesystem::path& folder) {
+Act act_of(const Arguments& arguments, const MotionTable& table, const std::filesystem::path& folder,
+           int picture_size) {
     Act act;
     auto& performance = act.performance;
     const auto neutral_file = folder / "neutral.ply";
@@ -259,13 +301,12 @@ Act act_of(const Arguments& arguments, const MotionTable& table, const std::file
         act.outcome.mapped = animation::map_shapes(*table.shapes, performance.character, arguments.options);
     else
         act.outcome = map_features(arguments, *table.features, performance.character, folder);
-    act.outcome.remarks.insert(act.outcome.remarks.begin(), table.remarks.begin(), table.remarks.end());
     say_overshoot(arguments, act.outcome);
     const auto& mapped = act.outcome.mapped;
     performance.weights = columns_of(performance.character, mapped.examples, mapped.weights, act.outcome.remarks);
     performance.times_s = mapped.times_s;
     performance.rate_hz = mapped.rate_hz;
-    performance.picture_size = arguments.picture_size;
+    performance.picture_size = picture_size;
     performance.made_by = {{"made_by", fmt::format("Mimik {} perform", base::version())},
                            {"motion", arguments.motion.filename().string()}};
     for (auto& said : database::said_in_files(database::origin_to_carry(std::vector{neutral_file})))
@@ -274,16 +315,44 @@ Act act_of(const Arguments& arguments, const MotionTable& table, const std::file
     return act;
 }
 
+/// Of the first face, and of those beside it what was not said of that one, behind their folders.
+std::vector<std::string> remarks_of(const Arguments& arguments, const MotionTable& table,
+                                    const std::vector<Act>& acts) {
+    auto remarks = table.remarks;
+    const auto& first = acts.front().outcome.remarks;
+    remarks.insert(remarks.end(), first.begin(), first.end());
+    for (std::size_t k = 1; k < acts.size(); ++k) {
+        const auto folder = arguments.beside[k - 1].string() + ": ";
+        for (const auto& remark : acts[k].outcome.remarks)
+            if (std::find(first.begin(), first.end(), remark) == first.end())
+                remarks.push_back(remark.starts_with(folder) ? remark : folder + remark);
+    }
+    if (acts.size() > 1 && !arguments.weights.empty())
+        remarks.push_back(fmt::format("{}: the weights of {}, not of the faces beside it", arguments.weights.string(),
+                                      arguments.examples.string()));
+    return remarks;
+}
+
+/// Pixels. Beside a performer faces are as high as the clip, unless --size says otherwise.
+int picture_size_of(const Arguments& arguments, const MotionTable& table) {
+    constexpr int usual = 480;
+    if (arguments.clip.empty()) return arguments.picture_size.value_or(usual);
+    if (!table.features)
+        throw InputError(fmt::format("--video {}: {} says weights and no pixels; nothing can be drawn on the video",
+                                     arguments.clip.string(), arguments.motion.string()));
+    const int of_clip = check_clip(arguments.clip, arguments.output, table.features->frames.size());
+    return arguments.picture_size.value_or(of_clip);
+}
+
 int run(const Arguments& arguments) {
     check(arguments);
     auto table = read_motion(arguments);
-    if (!arguments.clip.empty() && !table.features)
-        throw InputError(fmt::format("--video {}: {} says weights and no pixels; nothing can be drawn on the video",
-                                     arguments.clip.string(), arguments.motion.string()));
+    const int picture_size = picture_size_of(arguments, table);
     std::vector<std::filesystem::path> folders = {arguments.examples};
     folders.insert(folders.end(), arguments.beside.begin(), arguments.beside.end());
     std::vector<Act> acts;
-    for (const auto& folder : folders) acts.push_back(act_of(arguments, table, folder));
+    for (const auto& folder : folders) acts.push_back(act_of(arguments, table, folder, picture_size));
+    auto remarks = remarks_of(arguments, table, acts);
     auto& outcome = acts.front().outcome;
     std::vector<Performance> performances;
     for (auto& act : acts) {
@@ -294,7 +363,8 @@ int run(const Arguments& arguments) {
         base::write_atomically(arguments.weights, animation::encode_weights(outcome.mapped));
     const PerformerVideo performer{arguments.clip, table.features ? &*table.features : nullptr};
     for (auto& remark : write_performance(arguments.output, performances, performer, arguments.common))
-        outcome.remarks.push_back(std::move(remark));
+        remarks.push_back(std::move(remark));
+    outcome.remarks = std::move(remarks);
     report(arguments, table, outcome);
     return exit_done;
 }
@@ -312,14 +382,17 @@ void add_perform_command(CLI::App& app, int& exit_code) {
         ->required();
     command->add_option("--beside", arguments->beside, "Further folders, whose faces stand beside in an .mp4; repeat")
         ->allow_extra_args(false);
-    command->add_option(
-        "--video", arguments->clip,
-        "Video that the motion was captured from: it stands before the faces in an .mp4, curves drawn on");
+    command
+        ->add_option("--video", arguments->clip,
+                     "Video that the motion was captured from: it stands before the faces in an .mp4, curves drawn on")
+        ->check(named_file());
     command->add_option("-o,--output", arguments->output, ".glb, .mp4, or a folder for pictures")->required();
     command->add_option("--key", arguments->keys,
                         "EXAMPLE=FRAME of the motion that shows it, such as smile=120; repeat");
-    command->add_option("--source-examples", arguments->source_examples,
-                        "Or a table of what features do in the examples (features.csv of 'mimik examples')");
+    command
+        ->add_option("--source-examples", arguments->source_examples,
+                     "Or a table of what features do in the examples (features.csv of 'mimik examples')")
+        ->check(named_file());
     command->add_option(
         "--neutral", arguments->rest,
         "Frames A:B, B among them, in which the performer is at rest (default: the first half second seen)");
@@ -335,15 +408,15 @@ void add_perform_command(CLI::App& app, int& exit_code) {
                      "Of the linear part; 0: the paper's plain least squares, which noise upsets more")
         ->capture_default_str();
     command->add_flag("--wires", arguments->wires, "Blend wires along feature lines instead of vertices");
-    command->add_option("--weights", arguments->weights, "Write the weights as a table, too (.csv)");
+    command->add_option("--weights", arguments->weights, "Write the weights of --examples as a table, too (.csv)")
+        ->check(named_file());
     command->add_option("--rate", arguments->rate_hz, "Frames a second of tables that do not say it");
+    command->add_option("--outer-eye-mm", arguments->outer_eye_mm,
+                        "Between the performer's outer eye corners, of tables of pixels (default: 88)");
     command
-        ->add_option("--outer-eye-mm", arguments->outer_eye_mm,
-                     "Between the performer's outer eye corners, of tables of pixels")
-        ->capture_default_str();
-    command->add_option("--size", arguments->picture_size, "Of pictures and video, pixels")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
+        ->add_option("--size", arguments->picture_size,
+                     "Height of pictures and video, pixels (default: 480; with --video the clip's, up to 720)")
+        ->check(CLI::Range(16, 4096));
     add_common_options(*command, arguments->common);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -1,9 +1,11 @@
 #include "cli/performance_output.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "animation/blend_examples.h"
 #include "base/errors.h"
+#include "base/file.h"
 #include "base/output_folder.h"
 #include "base/parallel.h"
 #include "base/temporary.h"
@@ -93,6 +95,27 @@ void check_performance_output(const std::filesystem::path& output) {
     }
     const auto folder = kind.empty() ? output : output.parent_path();
     if (!folder.empty()) base::check_takes_files(folder);
+}
+
+int check_clip(const std::filesystem::path& clip, const std::filesystem::path& output, std::size_t frames) {
+    std::error_code none;
+    if (std::filesystem::is_directory(clip, none))
+        throw InputError(fmt::format("--video {}: is a folder; give a video file", clip.string()));
+    if (!std::filesystem::is_regular_file(clip, none))
+        throw InputError(fmt::format("--video {}: there is no such file", clip.string()));
+    const base::TemporaryFolder folder(output.parent_path());
+    const auto said = folder.path() / "clip.json";
+    const auto fault = run_program(find_video_program(),
+                                   {"mimik-video", "look", std::filesystem::absolute(clip), "--output", said.string()});
+    if (!fault.empty()) throw InputError(fmt::format("--video {}: cannot be read: {}", clip.string(), fault));
+    const auto facts = nlohmann::json::parse(base::read_text(said));
+    const auto held = facts.at("frames").get<std::size_t>();
+    if (held > 0 && held < frames)
+        throw InputError(
+            fmt::format("--video {}: ends at frame {}, before the performance of {} frames; is it the video that the "
+                        "motion was captured from?",
+                        clip.string(), held, frames));
+    return facts.at("height_beside").get<int>();
 }
 
 std::vector<std::string> write_performance(const std::filesystem::path& output,

@@ -30,6 +30,11 @@ struct Performance {
 /// where nobody can write one.
 void check_performance_output(const std::filesystem::path& output);
 
+/// Finds out before the work whether a video can stand beside a performance of so many frames.
+/// @returns how high the pictures beside it are, pixels. @throws InputError naming --video
+[[nodiscard]] int check_clip(const std::filesystem::path& clip, const std::filesystem::path& output,
+                             std::size_t frames);
+
 /// The performer in the video: the clip (empty: not in it) and the motion that was captured from it.
 struct PerformerVideo {
     std::filesystem::path clip;

@@ -8,6 +8,9 @@
 
 namespace mimik::cli {
 
+/// A tracker refuses the pixel of --face when it has seen how large frames are.
+inline const OptionOfField option_of_pixel = {{"x_px,", "--face"}};
+
 /// The tracker that --tracker, --model, --colours and --face ask for.
 [[nodiscard]] std::unique_ptr<video::FeatureTracker> make_tracker(const TrackingArguments& arguments);
 

@@ -12,6 +12,7 @@
 #include "base/optimiser_modules.h"
 #include "base/parallel.h"
 #include "base/pcl_module.h"
+#include "base/window_module.h"
 #include "cli/command.h"
 #include "cli/figure_start.h"
 #include "cli/libraries.h"
@@ -41,9 +42,13 @@ nlohmann::ordered_json facts() {
         document["drawing_program"] = find_figure_program().string();
     } catch (const std::exception&) {  // there is none, and that is said
     }
+    const auto video = find_own_program("mimik-video");
+    document["video_program"] =
+        video.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(video.string());
     for (const auto& [key, name] :
          {std::pair{"pcl_module", base::pcl_module_name}, std::pair{"opencv_program", "mimik-opencv"},
-          std::pair{"ceres_module", base::ceres_module_name}, std::pair{"simplex_module", base::simplex_module_name}}) {
+          std::pair{"ceres_module", base::ceres_module_name}, std::pair{"simplex_module", base::simplex_module_name},
+          std::pair{"window_module", base::window_module_name}}) {
         const auto file = base::find_companion(name);
         document[key] = file.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(file.string());
     }

@@ -1,7 +1,6 @@
 // mimik-video is a program of its own: OpenCV's video modules take longer to load than all of `mimik`.
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -39,9 +38,12 @@ void track(const CaptureArguments& arguments) {
     check_capture_options(arguments);
     const auto options = track_options(arguments.tracking, arguments.frames);
     const auto tracker = make_tracker(arguments.tracking);
-    const auto report =
-        video::track_video(arguments.source, *tracker,
-                           {arguments.output, arguments.landmarks68, arguments.sheet, arguments.video}, options);
+    video::TrackVideoReport report;
+    check_by_option(option_of_pixel, [&] {
+        report =
+            video::track_video(arguments.source, *tracker,
+                               {arguments.output, arguments.landmarks68, arguments.sheet, arguments.video}, options);
+    });
     if (!arguments.common.quiet && !arguments.common.json) say_notes(report.remarks);
     if (arguments.common.json)
         std::cout << io::json_text(nlohmann::ordered_json{{"schema", 1},
@@ -103,6 +105,19 @@ private:
     std::size_t given_ = 0;
 };
 
+/// What a video is like, for 'mimik perform': a JSON file.
+void look(const std::string& source, const std::string& output) {
+    video::VideoReader reader(source);
+    io::Image first;
+    if (!reader.next(first)) throw InputError(fmt::format("{}: no frame can be decoded", source));
+    base::write_atomically(output, io::json_text(nlohmann::ordered_json{{"schema", 1},
+                                                                        {"width", first.width},
+                                                                        {"height", first.height},
+                                                                        {"height_beside", video::beside_height(first)},
+                                                                        {"frames", reader.frames()},
+                                                                        {"rate_hz", reader.rate_hz()}}));
+}
+
 void write_video(const WriteArguments& arguments) {
     const auto files = pictures_in(arguments.folder);
     std::vector<std::vector<fs::path>> beside;
@@ -121,11 +136,11 @@ void write_video(const WriteArguments& arguments) {
         std::vector<io::Image> pictures = {io::read_png(files[k])};
         for (const auto& folder : beside) pictures.push_back(io::read_png(folder[k]));
         if (performer) {
-            writer.add(video::beside(performer->next(), pictures));
+            writer.add(video::beside(performer->next(), pictures, pictures.front().height));
         } else {
             const io::Image first = pictures.front();
             pictures.erase(pictures.begin());
-            writer.add(pictures.empty() ? first : video::beside(first, pictures));
+            writer.add(pictures.empty() ? first : video::beside(first, pictures, first.height));
         }
     }
     writer.finish();
@@ -184,8 +199,7 @@ void train(const TrainArguments& arguments) {
             if (row == rows.size() || rows[row].frame != f || f % arguments.every != 0) continue;
             if (labelled.size() == most_patches) break;
             const auto& p = rows[row].points;
-            const video::Pixel across = p[45] - p[36];
-            const video::FacePlace place{0.5 * (p[36] + p[45]), across.norm(), std::atan2(across.y(), across.x())};
+            const auto place = video::place_between(p[36], p[45]);
             auto in_patch = p;
             for (auto& at : in_patch) at = place.patch_from_frame(at);
             labelled.push_back({video::cut_patch(frame, place), video::curves_through(in_patch)});
@@ -199,9 +213,7 @@ void train(const TrainArguments& arguments) {
 }
 
 int run_video(int argc, char** argv) {
-    // FFmpeg and OpenCV tell of every oddity of a file; what matters is said by us.
-    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
-    setenv("OPENCV_LOG_LEVEL", "SILENT", 0);    // NOLINT(concurrency-mt-unsafe)
+    video::silence_decoders();  // what matters is said by us
     // Images of a patch come and go with every frame: their pages stay, so that the system need not clear them anew.
     constexpr int kept_bytes = 64 << 20;
     mallopt(M_MMAP_THRESHOLD, kept_bytes);
@@ -234,6 +246,12 @@ int run_video(int argc, char** argv) {
     writing->add_option("--motion", write.motion, "Feature motion of that video (.csv): its curves are drawn on");
     writing->add_flag("--quiet", write.quiet, "Say nothing but errors");
     writing->callback([&] { write_video(write); });
+
+    std::string looked_at, facts;
+    auto* looking = app.add_subcommand("look", "Size, rate and number of frames of a video, as JSON");
+    looking->add_option("VIDEO", looked_at, "Video file")->required();
+    looking->add_option("-o,--output", facts, "JSON file")->required();
+    looking->callback([&] { look(looked_at, facts); });
 
     std::string prefix;
     video::PerformanceOptions performance;

@@ -14,7 +14,8 @@ cd "$work"
 [ -s rendered.mp4 ] || "$program" render -o rendered --frames 240 --seed 1 >/dev/null
 [ -s still.mp4 ] || "$program" render -o still --frames 120 --seed 2 --head-motion 0 --expression 0 --light-change 0 >/dev/null
 
-follow() {  # name video tracker
+follow() {  # name video tracker; where it fails, nothing of an earlier run is left to be taken for its numbers
+  rm -f "$1.$3.csv" "$1.$3.68.csv" "$1.$3.png" "$1.$3.json"
   "$program" track "$2" -o "$1.$3.csv" --landmarks68 "$1.$3.68.csv" --sheet "$1.$3.png" --tracker "$3" --json >"$1.$3.json"
 }
 for name in rendered still; do
@@ -76,17 +77,21 @@ print("| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---:
 for name in ["rendered", "still"] + sys.argv[1:]:
     made = os.path.exists(f"{name}_points.csv")
     for tracker in ("paper", "dlib"):
-        if not os.path.exists(f"{name}.{tracker}.68.csv"): continue
+        if not os.path.exists(f"{name}.{tracker}.68.csv") or not os.path.getsize(f"{name}.{tracker}.json"): continue
         said = json.load(open(f"{name}.{tracker}.json"))
         seen = points(f"{name}.{tracker}.68.csv")
         reference = f"{name}_points.csv" if made else f"{name}.dlib.68.csv"
-        true = points(reference) if os.path.exists(reference) else seen
+        # Without a reference there is nothing to be beside: a tracker compared with itself would be without fault.
+        known = os.path.exists(reference)
+        true = points(reference) if known else [None] * len(seen)
         both = [(a, b) for a, b in zip(seen, true) if b]
         tenth = max(1, len(both) // 10)
         rate = said["frames"] / said["tracking_s"]
         cells = [pooled(seen, true, 17, 67), pooled(seen, true, 17, 26), pooled(seen, true, 36, 47), pooled(seen, true, 48, 67),
                  median_of_frames(both[:tenth]), median_of_frames(both[-tenth:])]
+        if not known: both = [(a, a) for a in seen]
         found = sum(1 for a, b in both if a)
-        print(f"| {name} | {tracker} | {'truth' if made else 'dlib'} | {found} of {len(both)} |", " | ".join(f"{c:.2f}" for c in cells),
-              f"| {jitter(seen, true):.2f} | {rate:.0f} |")
+        cells.append(jitter(seen, true if known else seen))
+        print(f"| {name} | {tracker} | {'truth' if made else 'dlib' if known else ''} | {found} of {len(both)} |",
+              " | ".join("" if math.isnan(c) else f"{c:.2f}" for c in cells), f"| {rate:.0f} |")
 TABLE

@@ -190,6 +190,17 @@ BlobBox box_of(const FaceCurves& curves, FeatureGroup group) {
     return {box.left - wide * unit, box.top - high * unit, box.right + wide * unit, box.bottom + high * unit};
 }
 
+namespace {
+
+double contrast_of(const SnakeGroup& group, const FloatImage& intensity, const CurveFitOptions& options) {
+    double sum = 0;
+    for (std::size_t c = 0; c < group.curves.size(); ++c)
+        sum += snake_contrast(group.curve(c), group.curves[c].inside, intensity, options.snake.offset_px);
+    return sum / static_cast<double>(group.curves.size());
+}
+
+}  // namespace
+
 GroupFit fit_group(FaceCurves& curves, FeatureGroup group, const PatchLevels& levels, bool try_blob,
                    const CurveFitOptions& options) {
     const auto& pyramid = levels_for(levels, group);
@@ -217,11 +228,22 @@ GroupFit fit_group(FaceCurves& curves, FeatureGroup group, const PatchLevels& le
         }
     }
     put_back(best, group, curves);
-    for (std::size_t c = 0; c < best.curves.size(); ++c)
-        fit.contrast +=
-            snake_contrast(best.curve(c), best.curves[c].inside, pyramid.back().intensity, options.snake.offset_px) /
-            static_cast<double>(best.curves.size());
+    fit.contrast = contrast_of(best, pyramid.back().intensity, options);
     return fit;
+}
+
+double contrast_of(const FaceCurves& curves, const PatchLevels& levels, const CurveFitOptions& options) {
+    double sum = 0;
+    for (std::size_t g = 0; g < feature_group_count; ++g) {
+        const auto group = static_cast<FeatureGroup>(g);
+        sum += contrast_of(group_of(curves, group), levels_for(levels, group).back().intensity, options);
+    }
+    return sum / static_cast<double>(feature_group_count);
+}
+
+double confidence_of(double contrast) {
+    constexpr double sure = 0.4;  // rendered faces, and talking heads in good light, show more
+    return std::clamp(contrast / sure, 0.0, 1.0);
 }
 
 void part_curves(FaceCurves& curves) {

@@ -67,6 +67,12 @@ struct GroupFit {
 GroupFit fit_group(FaceCurves& curves, FeatureGroup group, const PatchLevels& levels, bool try_blob,
                    const CurveFitOptions& options = {});
 
+/// The mean of what fit_group() calls contrast over all groups, of curves in the patch as they are.
+[[nodiscard]] double contrast_of(const FaceCurves& curves, const PatchLevels& levels,
+                                 const CurveFitOptions& options = {});
+/// How sure a face is whose features show so much contrast: 0 to 1.
+[[nodiscard]] double confidence_of(double contrast);
+
 /// An upper lid is never below the lower one, nor a lip beyond the other: curves that cross meet halfway.
 void part_curves(FaceCurves& curves);
 

@@ -67,26 +67,25 @@ void draw_motion(io::Image& frame, const capture::FeatureMotion& motion, std::si
 
 int beside_height(const io::Image& frame) { return std::min(frame.height, 720); }
 
-io::Image beside(const io::Image& frame, const std::vector<io::Image>& faces) {
-    const int height = beside_height(frame);
+io::Image beside(const io::Image& frame, const std::vector<io::Image>& faces, int height_px) {
     std::vector<cv::Mat> scaled;
     int width = 0;
     const auto add = [&](const io::Image& image) {
         const cv::Mat from(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data()));  // NOLINT
         cv::Mat to = from;
-        if (image.height != height)
-            cv::resize(from, to, cv::Size(std::max(1, image.width * height / image.height), height), 0, 0,
-                       image.height > height ? cv::INTER_AREA : cv::INTER_LINEAR);
+        if (image.height != height_px)
+            cv::resize(from, to, cv::Size(std::max(1, image.width * height_px / image.height), height_px), 0, 0,
+                       image.height > height_px ? cv::INTER_AREA : cv::INTER_LINEAR);
         width += to.cols;
         scaled.push_back(to);
     };
     add(frame);
     for (const auto& face : faces) add(face);
-    auto made = empty_image(width, height);
+    auto made = empty_image(width, height_px);
     cv::Mat to = matrix_of(made);
     int left = 0;
     for (const auto& part : scaled) {
-        part.copyTo(to(cv::Rect(left, 0, part.cols, height)));
+        part.copyTo(to(cv::Rect(left, 0, part.cols, height_px)));
         left += part.cols;
     }
     return made;

@@ -29,6 +29,11 @@ Pixel FacePlace::patch_from_frame(const Pixel& at) const {
     return p * (patch_outer_eyes_px / outer_eyes_px) + Pixel(patch_middle_x, patch_middle_y);
 }
 
+FacePlace place_between(const Pixel& right_corner, const Pixel& left_corner) {
+    const Pixel across = left_corner - right_corner;
+    return {0.5 * (left_corner + right_corner), across.norm(), std::atan2(across.y(), across.x())};
+}
+
 io::Image cut_patch(const io::Image& frame, const FacePlace& place) {
     const Pixel origin = place.frame_from_patch({0, 0});
     const Pixel along = place.frame_from_patch({1, 0}) - origin, down = place.frame_from_patch({0, 1}) - origin;

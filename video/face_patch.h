@@ -32,6 +32,9 @@ struct FacePlace {
     [[nodiscard]] Pixel patch_from_frame(const Pixel& at) const;
 };
 
+/// By the outer corners of the subject's right and left eye, pixels of the frame.
+[[nodiscard]] FacePlace place_between(const Pixel& right_corner, const Pixel& left_corner);
+
 /// A face is looked at in a patch of one size, whatever its size in the frame: all the work on a frame takes the same
 /// time at any resolution. In it the outer eye corners stand level and `patch_outer_eyes_px` apart.
 inline constexpr int patch_width_px = 200, patch_height_px = 248;

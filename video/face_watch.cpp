@@ -8,24 +8,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/errors.h"
+#include "video/picture_memory.h"
 
 namespace mimik::video {
 namespace {
 
 constexpr int cell_px = 4;  ///< of the patch: finer detail says nothing of who is there
-
-double correlation(const std::vector<float>& a, const std::vector<float>& b) {
-    double sum_a = 0, sum_b = 0, aa = 0, bb = 0, ab = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        sum_a += a[k], sum_b += b[k];
-        aa += double{a[k]} * a[k], bb += double{b[k]} * b[k], ab += double{a[k]} * b[k];
-    }
-    const auto n = static_cast<double>(std::max<std::size_t>(1, a.size()));
-    constexpr double noise = 1;  // grey level: a blank picture is like nothing
-    aa = std::max(0.0, aa - sum_a * sum_a / n) + noise * n;
-    bb = std::max(0.0, bb - sum_b * sum_b / n) + noise * n;
-    return (ab - sum_a * sum_b / n) / std::sqrt(aa * bb);
-}
 
 struct Cells {
     std::vector<float> upper, mouth;
@@ -83,7 +71,7 @@ FaceWatch::Look FaceWatch::look(std::span<const std::uint8_t> patch_grey, double
     if (!knows()) return {};
     const auto cells = cells_of(patch_grey);
     constexpr double least_usual = 0.02;  // lips that never show: nothing is said of them
-    return {correlation(cells.upper, upper_), correlation(cells.mouth, mouth_),
+    return {grey_correlation(cells.upper, upper_), grey_correlation(cells.mouth, mouth_),
             lips_ > least_usual ? lip_contrast / lips_ : 1};
 }
 
@@ -91,7 +79,7 @@ void FaceWatch::learn(std::span<const std::uint8_t> patch_grey, double lip_contr
     const auto cells = cells_of(patch_grey);
     was_covered_ = false;
     lost_frames_ = 0;
-    if (!knows() || correlation(cells.upper, upper_) < options_.least_alike) {
+    if (!knows() || grey_correlation(cells.upper, upper_) < options_.least_alike) {
         upper_ = cells.upper;
         mouth_ = cells.mouth;
         lips_ = lip_contrast;

@@ -14,9 +14,13 @@ namespace mimik::video {
 /// Whether the curves lie in the frame, all but a tenth, and have the size of a face that can be followed.
 [[nodiscard]] bool is_whole_face(const FaceCurves& curves, const FacePlace& place, int width, int height);
 
-/// I inside less I outside of the outer lips: about 0 where something lies on them.
+/// I inside less I outside of the outer lips, in units of I (0 to 1): about 0 where something lies on them.
+/// @param in_patch  curves in pixels of the patch whose `levels` these are
 [[nodiscard]] double lip_contrast(const FaceCurves& in_patch, const PatchLevels& levels,
                                   const CurveFitOptions& options = {});
+
+/// Below it nobody's mouth is seen: a face is not taken up, whichever tracker found it.
+inline constexpr double least_lip_contrast = 0.02;
 
 struct FaceWatchOptions {
     /// Correlation of brows, eyes and nose with how they usually look. Talking heads stay above 0.8, a cut falls to

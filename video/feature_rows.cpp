@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "base/text.h"
+
 namespace mimik::video {
 namespace {
 
@@ -148,6 +152,18 @@ void FeatureRows::give(const std::optional<TrackedFace>& face) {
         for (auto& filter : filters_) filter.restart();
     }
     take_(row);
+}
+
+std::vector<std::string> finish_rows(FeatureRows& rows) {
+    std::vector<std::string> remarks;
+    if (!rows.finish()) remarks.emplace_back("no face was found in any frame: every row is lost");
+    if (rows.late_neutral())
+        remarks.emplace_back(
+            "no face was found in the neutral frames: the first face that was found is taken for neutral");
+    if (rows.without_pose() > 0)
+        remarks.push_back(fmt::format("the head had no pose in {} in which a face was seen: these rows are lost",
+                                      base::counted(static_cast<std::size_t>(rows.without_pose()), "frame")));
+    return remarks;
 }
 
 }  // namespace mimik::video

@@ -3,6 +3,7 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "capture/feature_motion.h"
@@ -53,5 +54,8 @@ private:
     long given_ = 0, tracked_ = 0, without_pose_ = 0;
     bool late_neutral_ = false;
 };
+
+/// Gives out what waits. @returns what is to be said of the rows: no face, none in the neutral frames, no pose
+[[nodiscard]] std::vector<std::string> finish_rows(FeatureRows& rows);
 
 }  // namespace mimik::video

@@ -25,11 +25,6 @@ FaceCurves mapped(const FaceCurves& curves, const auto& map) {
     return made;
 }
 
-FacePlace place_of_corners(const Pixel& right, const Pixel& left) {
-    const Pixel across = left - right;
-    return {0.5 * (left + right), across.norm(), std::atan2(across.y(), across.x())};
-}
-
 FacePlace between(const FacePlace& a, const FacePlace& b, double share_of_b) {
     return {a.middle + share_of_b * (b.middle - a.middle),
             a.outer_eyes_px + share_of_b * (b.outer_eyes_px - a.outer_eyes_px),
@@ -46,7 +41,7 @@ FacePlace place_of_eyes(const FaceCurves& curves) {
     const auto& mean = mean_face_curves();
     const double apart = mean[lid_left_upper].control[0].x() + mean[lid_left_upper].control[3].x();
     const double below = 0.5 * (mean[lid_left_upper].control[0].y() + mean[lid_left_upper].control[3].y());
-    auto place = place_of_corners(middle(lid_right_upper, lid_right_lower), middle(lid_left_upper, lid_left_lower));
+    auto place = place_between(middle(lid_right_upper, lid_right_lower), middle(lid_left_upper, lid_left_lower));
     place.outer_eyes_px /= apart;
     place.middle -= Eigen::Rotation2Dd(place.roll_rad) * Pixel(0, below * place.outer_eyes_px);
     return place;
@@ -104,6 +99,7 @@ public:
     }
 
     [[nodiscard]] std::optional<TrackedFace> next(const io::Image& frame) override {
+        chooser_.look_at(frame);
         std::optional<TrackedFace> face;
         if (followed_ && follow(frame)) {
             face = result(false);
@@ -138,8 +134,7 @@ private:
         face.curves = followed_->curves;
         face.place = followed_->place;
         face.found_anew = anew;
-        face.confidence =
-            std::clamp(followed_->contrast / 0.4, 0.0, 1.0) * std::clamp(followed_->inliers / 0.7, 0.0, 1.0);
+        face.confidence = confidence_of(followed_->contrast) * std::clamp(followed_->inliers / 0.7, 0.0, 1.0);
         return face;
     }
 
@@ -170,7 +165,7 @@ private:
                 const auto levels = levels_of(cut_patch(frame, made.place), made.weights, options_.fit);
                 curves = align_mean_face(levels, contrast);
                 curves = mapped(curves, [&](const Pixel& p) { return made.place.frame_from_patch(p); });
-                made.place = place_of_corners(curves[lid_right_upper].control[0], curves[lid_left_upper].control[3]);
+                made.place = place_between(curves[lid_right_upper].control[0], curves[lid_left_upper].control[3]);
             }
             const auto patch = cut_patch(frame, made.place);
             curves = mapped(curves, [&](const Pixel& p) { return made.place.patch_from_frame(p); });
@@ -273,7 +268,7 @@ private:
             const Pixel was = followed.place.frame_from_patch(patch_from_mean({x, 0}));
             return before.frame_from_patch(head(before.patch_from_frame(was)));
         };
-        followed.place = place_of_corners(carried(-0.5), carried(0.5));
+        followed.place = place_between(carried(-0.5), carried(0.5));
         return refine(frame);
     }
 

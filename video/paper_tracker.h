@@ -17,11 +17,12 @@ struct PaperTrackerOptions {
     FlowOptions flow = {};
     FaceChoiceOptions face = {};
     FaceWatchOptions watch = {};
-    double least_contrast = 0.16;      ///< of all features of a face that is taken for one; skin alone has about 0
-    double least_inliers = 0.3;        ///< share of the points of the head that must move as one
-    double least_lip_contrast = 0.02;  ///< of the lips alone, when a face is found: a covered mouth has none
-    int look_every_frames = 5;         ///< the face finder looks whether there is still a face
-    int misses = 6;                    ///< so many frames on end it does not: the face is lost
+    double least_contrast = 0.16;  ///< of all features of a face that is taken for one; skin alone has about 0
+    double least_inliers = 0.3;    ///< share of the points of the head that must move as one
+    /// Of the lips alone, when a face is found: a covered mouth has none.
+    double least_lip_contrast = video::least_lip_contrast;
+    int look_every_frames = 5;  ///< the face finder looks whether there is still a face
+    int misses = 6;             ///< so many frames on end it does not: the face is lost
     template <class Self, class Visit>
     static constexpr void each_field(Self& self, Visit&& visit) {
         visit("fit", self.fit);

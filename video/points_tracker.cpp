@@ -1,7 +1,5 @@
 #include "video/points_tracker.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "video/face_watch.h"
@@ -10,11 +8,6 @@ namespace mimik::video {
 namespace {
 
 constexpr int look_every_frames = 10;  ///< a finder takes longer than all the rest
-
-FacePlace place_of(const Points68& points) {
-    const Pixel across = points[45] - points[36];
-    return {0.5 * (points[36] + points[45]), across.norm(), std::atan2(across.y(), across.x())};
-}
 
 class PointsTracker final : public FeatureTracker {
 public:
@@ -28,6 +21,8 @@ public:
     }
 
     [[nodiscard]] std::optional<TrackedFace> next(const io::Image& frame) override {
+        chooser_.look_at(frame);
+        found_.reset();
         std::optional<TrackedFace> face;
         if (box_) face = carry_on(frame);
         if (!face) face = acquire(frame);
@@ -47,8 +42,7 @@ private:
         TrackedFace face;
         face.curves = curves_through(*points);
         face.points = points;
-        face.place = place_of(*points);
-        face.confidence = 1;
+        face.place = place_between((*points)[36], (*points)[45]);
         return is_whole_face(face.curves, face.place, frame.width, frame.height) ? std::optional(face) : std::nullopt;
     }
 
@@ -57,16 +51,23 @@ private:
         std::vector<std::uint8_t> grey;
         double lips = 0;
     };
-    [[nodiscard]] static Seen seen(const io::Image& frame, const TrackedFace& face) {
+    /// Says in the face how sure it is, by the contrast of its features.
+    [[nodiscard]] static Seen seen(const io::Image& frame, TrackedFace& face) {
         const auto patch = cut_patch(frame, face.place);
         auto in_patch = face.curves;
         for (auto& curve : in_patch.curve)
             for (auto& p : curve.control) p = face.place.patch_from_frame(p);
-        return {grey_of(patch), lip_contrast(in_patch, levels_of(patch, ColourWeights{}))};
+        const auto levels = levels_of(patch, ColourWeights{});
+        face.confidence = confidence_of(contrast_of(in_patch, levels));
+        return {grey_of(patch), lip_contrast(in_patch, levels)};
     }
 
     [[nodiscard]] std::optional<TrackedFace> carry_on(const io::Image& frame) {
-        if (++age_ % look_every_frames == 0 && !look_again(frame)) return std::nullopt;
+        if (++age_ % look_every_frames == 0) {
+            const auto there = candidates(frame);
+            if (there.empty()) return std::nullopt;
+            take_box(there.front());
+        }
         auto face = face_in(frame, *box_);
         if (!face) return std::nullopt;
         const auto now = seen(frame, *face);
@@ -78,26 +79,32 @@ private:
         return face;
     }
 
-    [[nodiscard]] bool look_again(const io::Image& frame) {
-        const auto there = chooser_.candidates(source_->find(frame));
-        if (there.empty()) return false;
-        box_ = there.front();
-        place_then_.reset();
-        return true;
+    [[nodiscard]] std::optional<TrackedFace> acquire(const io::Image& frame) {
+        for (const auto& box : candidates(frame)) {
+            auto face = face_in(frame, box);
+            if (!face) continue;
+            const auto now = seen(frame, *face);
+            // A net gives points in any box, whatever is in it.
+            if (now.lips < least_lip_contrast || !watch_.accepts(watch_.look(now.grey, now.lips))) continue;
+            watch_.learn(now.grey, now.lips);
+            age_ = 0;
+            face->found_anew = true;
+            take_box(box);
+            follow_box(face->place);
+            return face;
+        }
+        return std::nullopt;
     }
 
-    [[nodiscard]] std::optional<TrackedFace> acquire(const io::Image& frame) {
-        if (!look_again(frame)) return std::nullopt;
-        auto face = face_in(frame, *box_);
-        if (!face) return std::nullopt;
-        const auto now = seen(frame, *face);
-        const auto look = watch_.look(now.grey, now.lips);
-        if (!watch_.accepts(look)) return std::nullopt;
-        watch_.learn(now.grey, now.lips);
-        age_ = 0;
-        face->found_anew = true;
-        follow_box(face->place);
-        return face;
+    /// The finder looks once a frame at most.
+    [[nodiscard]] std::vector<FaceBox> candidates(const io::Image& frame) {
+        if (!found_) found_ = source_->find(frame);
+        return chooser_.candidates(*found_);
+    }
+
+    void take_box(const FaceBox& box) {
+        box_ = box;
+        place_then_.reset();
     }
 
     /// Until the finder looks again the box goes with the eyes.
@@ -116,6 +123,7 @@ private:
     std::unique_ptr<PointSource> source_;
     FaceChooser chooser_;
     FaceWatch watch_;
+    std::optional<std::vector<FaceBox>> found_;  ///< in this frame
     std::optional<FaceBox> box_;
     FaceBox box_then_;
     std::optional<FacePlace> place_then_;

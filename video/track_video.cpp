@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -51,18 +52,6 @@ private:
     long frame_ = 0;
 };
 
-/// Writes what waits, and tells the report.
-void say_of_rows(FeatureRows& rows, TrackVideoReport& report) {
-    if (!rows.finish()) report.remarks.emplace_back("no face was found in any frame: every row is lost");
-    if (rows.late_neutral())
-        report.remarks.emplace_back(
-            "no face was found in the neutral frames: the first face that was found is taken for neutral");
-    report.tracked = rows.tracked();
-    if (rows.without_pose() > 0)
-        report.remarks.push_back(fmt::format("the head had no pose in {} in which a face was seen: these rows are lost",
-                                             base::counted(static_cast<std::size_t>(rows.without_pose()), "frame")));
-}
-
 void follow(VideoReader& reader, FeatureTracker& tracker, std::ostream& motion, std::ostream* landmarks,
             const TrackVideoFiles& files, const TrackVideoOptions& options, TrackVideoReport& report) {
     std::vector<std::string> names;
@@ -99,7 +88,11 @@ void follow(VideoReader& reader, FeatureTracker& tracker, std::ostream& motion, 
         draw_face(frame, face);
         video->add(frame);
     }
-    if (rows) say_of_rows(*rows, report);
+    if (rows) {
+        report.remarks = finish_rows(*rows);
+        report.tracked = rows->tracked();
+    }
+    if (auto remark = camera_rate_remark(reader)) report.remarks.push_back(std::move(*remark));
     if (!reader.is_camera() && times.worst_s() > 0.5 / report.rate_hz)
         report.remarks.push_back(fmt::format(
             "the file's own times differ by up to {:.3f} s from {:g} frames a second, which the rows go by: "
@@ -115,12 +108,11 @@ void follow(VideoReader& reader, FeatureTracker& tracker, std::ostream& motion, 
 }  // namespace
 
 void TrackVideoOptions::check() const {
-    constexpr int most_waiting = 1000;  // rows that wait for the neutral frames are kept in memory
     camera.check();
     one_euro.check();
-    if (neutral_from < 0 || neutral_to < neutral_from || neutral_to >= most_waiting)
+    if (neutral_from < 0 || neutral_to < neutral_from || neutral_to >= most_waiting_frames)
         throw InputError(fmt::format("neutral frames are {} to {}; give two frames A:B with 0 <= A <= B < {}",
-                                     neutral_from, neutral_to, most_waiting));
+                                     neutral_from, neutral_to, most_waiting_frames));
     if (most_frames < 0) throw InputError(fmt::format("most_frames is {}; give 0 or more", most_frames));
 }
 

@@ -14,6 +14,9 @@
 
 namespace mimik::video {
 
+/// Rows that wait for the neutral frames are kept in memory: the last of these frames is below.
+inline constexpr int most_waiting_frames = 1000;
+
 struct TrackVideoOptions {
     CameraOptions camera = {};
     /// Frames, the last one among them, in which the performer's face is at rest; the head is fitted to the mean of

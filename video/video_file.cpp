@@ -2,22 +2,34 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "base/errors.h"
 #include "base/file.h"
+#include "base/temporary.h"
 #include "base/text.h"
 
 namespace mimik::video {
 
 void use_one_thread() { cv::setNumThreads(1); }
+
+void silence_decoders() {
+    // NOLINTBEGIN(concurrency-mt-unsafe): before any thread
+    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+    if (std::getenv("OPENCV_LOG_LEVEL") == nullptr)  // which OpenCV read when it was loaded
+        cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    // NOLINTEND(concurrency-mt-unsafe)
+}
 
 namespace {
 
@@ -51,6 +63,8 @@ struct VideoReader::Parts {
     cv::Mat frame, first;
     bool camera = false;
     double time_ms = 0;
+    std::chrono::steady_clock::time_point began, last;  ///< the first frame and the last were given
+    long given = 0;
 };
 
 VideoReader::VideoReader(const std::string& source) : parts_(std::make_unique<Parts>()) {
@@ -116,13 +130,37 @@ bool VideoReader::next(io::Image& frame) {
     frame.rgb.resize(3 * from.total());
     cv::Mat to(from.rows, from.cols, CV_8UC3, frame.rgb.data());
     cv::cvtColor(from, to, from.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
+    parts_->last = std::chrono::steady_clock::now();
+    if (parts_->given++ == 0) parts_->began = parts_->last;
     return true;
+}
+
+std::pair<long, double> VideoReader::frames_and_seconds() const {
+    if (parts_->given == 0) return {0, 0};
+    return {parts_->given - 1, std::chrono::duration<double>(parts_->last - parts_->began).count()};
+}
+
+std::optional<std::string> rate_remark(long frames, double seconds, double said_hz) {
+    constexpr double alike = 0.05;  // a camera's clock and ours; and a frame more or less in the first second
+    if (!(seconds >= 1 && said_hz > 0)) return std::nullopt;
+    const double rate_hz = static_cast<double>(frames) / seconds;
+    if (std::abs(rate_hz - said_hz) <= alike * said_hz) return std::nullopt;
+    return fmt::format(
+        "gave {:.1f} frames a second and says {:g}, which times and videos go by: motion is shown {:.2f} times as fast",
+        rate_hz, said_hz, said_hz / rate_hz);
+}
+
+std::optional<std::string> camera_rate_remark(const VideoReader& reader) {
+    if (!reader.is_camera()) return std::nullopt;
+    const auto [frames, seconds] = reader.frames_and_seconds();
+    return rate_remark(frames, seconds, reader.rate_hz());
 }
 
 struct VideoWriter::Parts {
     std::filesystem::path file, part;
+    std::optional<base::TemporaryFolder> folder;  ///< of `part`: OpenCV goes by a name and its ending
     double rate_hz = 30;
-    cv::VideoWriter writer;
+    cv::VideoWriter writer;  // after the folder: closed before that is removed
     cv::Size size;
     long frames = 0;
 };
@@ -132,21 +170,26 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, double rate_hz) : pa
         throw InputError(fmt::format("{}: videos are written as .mp4", file.string()));
     if (!(rate_hz >= 1 && rate_hz <= 1000))
         throw InputError(fmt::format("{} frames a second; give 1 to 1000", rate_hz));
-    parts_->file = file;
-    parts_->part = file;
-    parts_->part.replace_extension(".part.mp4");
-    parts_->rate_hz = rate_hz;
-    if (file.has_parent_path()) {
-        std::error_code ignored;  // said when the file does not open
-        std::filesystem::create_directories(file.parent_path(), ignored);
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+        throw InputError(fmt::format("{}: is a folder; name the file to write", file.string()));
+    if (const auto folder = file.parent_path(); !folder.empty()) {
+        std::filesystem::create_directories(folder, error);
+        if (error)
+            throw InputError(
+                fmt::format("{}: its folder cannot be made ({}); write elsewhere", file.string(), error.message()));
     }
+    try {
+        parts_->folder.emplace(file.parent_path());
+    } catch (const std::system_error& e) {
+        throw InputError(fmt::format("{}: cannot be written ({}); check the folder's permissions", file.string(),
+                                     e.code().message()));
+    }
+    parts_->file = file;
+    parts_->part = parts_->folder->path() / "video.mp4";
+    parts_->rate_hz = rate_hz;
 }
-VideoWriter::~VideoWriter() {
-    if (!parts_->writer.isOpened()) return;
-    parts_->writer.release();
-    std::error_code ignored;
-    std::filesystem::remove(parts_->part, ignored);
-}
+VideoWriter::~VideoWriter() = default;
 
 void VideoWriter::add(const io::Image& frame) {
     auto& p = *parts_;
@@ -171,13 +214,11 @@ void VideoWriter::finish() {
     auto& p = *parts_;
     if (!p.writer.isOpened()) throw InputError(fmt::format("{}: there is no frame to write", p.file.string()));
     p.writer.release();
-    std::error_code error;
     // OpenCV's writer tells of no error, not even of a full disk.
-    if (const long held = frames_in(p.part); held != p.frames) {
-        std::filesystem::remove(p.part, error);
-        throw InputError(fmt::format("{}: holds {} of {} frames and was removed; is the disk full?", p.file.string(),
-                                     held, p.frames));
-    }
+    if (const long held = frames_in(p.part); held != p.frames)
+        throw InputError(fmt::format("{}: would hold {} of {} frames and was not written; is the disk full?",
+                                     p.file.string(), held, p.frames));
+    std::error_code error;
     std::filesystem::rename(p.part, p.file, error);
     if (error) throw InputError(fmt::format("{}: cannot be written: {}", p.file.string(), error.message()));
 }

@@ -70,17 +70,5 @@ TEST_F(DenseField, one_side_of_a_smile_leaves_the_other_corner_still) {
     EXPECT_LT(largest_near("mouth_corner_right"), 0.05);
 }
 
-TEST_F(DenseField, surface_between_lips_that_part_is_torn_and_else_whole) {
-    using preprocessing::LipSide;
-    const std::vector<LipSide> sides = {LipSide::upper, LipSide::lower, LipSide::neither};
-    const std::vector<Vector> parted = {Vector(0, 1, 0), Vector(0, -1, 0), Vector(0, 0, 0)};
-    const std::vector<Vector> together = {Vector(0, 1, 0), Vector(0, 0.8, 0), Vector(0, -5, 0)};
-    const std::vector<std::uint32_t> corners = {0, 1, 2}, upper_alone = {0, 2};
-    EXPECT_TRUE(torn_lips(sides, parted, corners));
-    EXPECT_FALSE(torn_lips(sides, together, corners));
-    EXPECT_FALSE(torn_lips(sides, parted, upper_alone));
-    EXPECT_FALSE(torn_lips({}, parted, corners));
-}
-
 }  // namespace
 }  // namespace mimik::animation

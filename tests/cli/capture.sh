@@ -18,6 +18,9 @@ expect_code 2 "--face is '3,x'; a pixel has two numbers" "$mimik" capture take.m
 expect_code 2 "--tracker is 'best'; there are paper, dlib and onnx" "$mimik" capture take.mp4 -o x.csv --tracker best
 expect_code 2 "--tracker onnx: --model is missing" "$mimik" capture take.mp4 -o x.csv --tracker onnx
 expect_code 2 "--model is 'a.onnx'; it goes with --tracker onnx" "$mimik" capture take.mp4 -o x.csv --model a.onnx
+expect_code 2 "--colours: is empty; name a file, or leave it out" "$mimik" capture take.mp4 -o x.csv --colours ""
+expect_code 2 "--neutral is '0:5000'; give two frames A:B with A <= B < 1000" \
+  "$mimik" capture take.mp4 -o x.csv --neutral 0:5000
 claim "without OpenCV's program it is said what to install, and options are checked before"
 
 video=$(dirname "$mimik")/mimik-video
@@ -50,6 +53,9 @@ cp sheet.png frames/frame_000001.png
 expect_code 2 "frames2: is no folder" "$video" write frames2 out.mp4
 "$mimik" capture made.mp4 -o asked.csv --neutral 0:1 --face 240,170 --quiet
 cmp motion.csv asked.csv || fail "the one face there is, asked for by its pixel, is another"
+expect_code 2 "--face: x_px, y_px are 5000, 5000, and frames have 480 x 360 pixels" \
+  "$mimik" capture made.mp4 -o far.csv --face 5000,5000
+[ ! -e far.csv ] || fail "a table for nothing"
 "$mimik" capture made.mp4 -o nobody.csv --neutral 0:1 --face 2 2>notes.txt >/dev/null
 [ "$(grep -c ,lost, nobody.csv)" = 4 ] || fail "$(cut -c1-40 nobody.csv)"
 claim "of several faces the one asked for is followed; one that is not there is lost"
@@ -67,6 +73,7 @@ claim "a performer's own colours are learnt and used"
 echo "no video" >text.mp4
 head -c 2000 made.mp4 >cut.mp4
 expect_code 2 "text.mp4: no frame can be decoded" "$mimik" capture text.mp4 -o o.csv
+[ "$(wc -l <err.txt)" = 1 ] || { cat err.txt; fail "OpenCV speaks, too"; }
 expect_code 2 "cut.mp4: no frame can be decoded" "$mimik" capture cut.mp4 -o o.csv
 expect_code 2 "nowhere.mp4: there is no such file" "$mimik" capture nowhere.mp4 -o o.csv
 expect_code 2 "camera 0: never ends" "$mimik" capture 0 -o o.csv

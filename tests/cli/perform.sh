@@ -101,4 +101,23 @@ expect_code 2 "smile=21: the face is lost there" "$mimik" perform motion.csv --e
 expect_code 2 "take.csv: 'a,b' is no header of a motion" \
   bash -c 'echo a,b >take.csv && exec "$0" perform take.csv --examples face -o out4.glb' "$mimik"
 [ ! -e out4.glb ] || fail "a file for nothing"
+expect_code 2 "--rate is 10: motion.csv says its rate, 25 a second" \
+  "$mimik" perform motion.csv --examples face -o out4.glb --rate 10
+expect_code 2 "--outer-eye-mm is 90: it is for tables of pixels, and motion.csv is in millimetres" \
+  "$mimik" perform motion.csv --examples face -o out4.glb --outer-eye-mm 90
+expect_code 2 "--source-examples: is empty" "$mimik" perform motion.csv --examples face -o out4.glb --source-examples ""
+[ ! -e out4.glb ] || fail "a file for nothing"
 claim "what is wrong is named"
+
+cp motion.csv kept.csv
+cp -r face kept
+expect_code 2 "--weights is './motion.csv', the same file as MOTION" \
+  "$mimik" perform motion.csv --examples face -o out5.glb --weights ./motion.csv
+expect_code 2 "--weights is 'w.txt'; it is written as .csv" \
+  "$mimik" perform motion.csv --examples face -o out5.glb --weights w.txt
+expect_code 2 "--weights is 'face/features.csv', the same file as --source-examples" \
+  "$mimik" perform motion.csv --examples face --source-examples face/features.csv -o out5.glb --weights face/features.csv
+expect_code 2 "--weights is 'face/features.csv', the same file as a file of face" \
+  "$mimik" perform motion.csv --examples face -o out5.glb --weights face/features.csv
+cmp motion.csv kept.csv && diff -r face kept && [ ! -e out5.glb ] || fail "something was written over"
+claim "nothing is written over what is read"

@@ -1,5 +1,7 @@
 #include "video/face_choice.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -42,25 +44,93 @@ TEST(FaceChooser, keeps_to_the_face_that_was_followed_though_a_larger_one_comes)
     EXPECT_EQ(left_of_first(chooser.candidates(shaken)), 103);
 }
 
+/// A picture that is dark on one side.
+io::Image shot(bool dark_left) {
+    io::Image made;
+    made.width = 400;
+    made.height = 400;
+    made.rgb.resize(std::size_t{3} * 400 * 400);
+    for (std::size_t k = 0; k < made.rgb.size(); ++k) made.rgb[k] = (k / 3 % 400 < 200) == dark_left ? 40 : 200;
+    return made;
+}
+
 TEST(FaceChooser, waits_where_the_face_was_and_then_takes_the_largest_again) {
     FaceChooser chooser({.wait_frames = 10});
+    chooser.look_at(shot(true));
     chooser.followed(group[3]);
-    for (int k = 0; k < 10; ++k) chooser.lost();
-    EXPECT_EQ(chooser.candidates(group).front().size_px, 50);
+    const std::vector others(group.begin(), group.end() - 1);
+    for (int k = 0; k < 10; ++k) {
+        chooser.look_at(shot(true));
+        EXPECT_EQ(chooser.candidates(group).front().size_px, 50);
+        EXPECT_THAT(chooser.candidates(others), testing::IsEmpty()) << "a neighbour is nobody's, frame " << k;
+        chooser.lost();
+    }
+    chooser.look_at(shot(true));
+    EXPECT_EQ(chooser.candidates(others).size(), 0U);
     chooser.lost();
     EXPECT_EQ(chooser.candidates(group).front().size_px, 80);
-    // After a cut nobody is there: the largest is taken at once.
-    chooser.followed(group[3]);
-    chooser.lost();
-    EXPECT_EQ(chooser.candidates(std::vector(group.begin(), group.end() - 1)).front().size_px, 80);
+}
+
+TEST(FaceChooser, does_not_wait_after_a_cut_though_it_is_noticed_a_frame_late) {
+    const std::vector others(group.begin(), group.end() - 1);
+    FaceChooser chooser;
+    for (const bool dark_left : {true, true, false}) {  // the third is another shot already
+        chooser.look_at(shot(dark_left));
+        chooser.followed(group[3]);
+    }
+    chooser.look_at(shot(false));
+    EXPECT_EQ(chooser.candidates(others).front().size_px, 80);
+}
+
+TEST(FaceChooser, does_not_wait_for_one_who_went_over_the_edge) {
+    FaceChooser chooser;
+    chooser.look_at(shot(true));
+    chooser.followed({Pixel(360, 200), 50});  // of 400 pixels
+    chooser.look_at(shot(true));
+    EXPECT_EQ(chooser.candidates(group).front().size_px, 80);
 }
 
 TEST(FaceChooser, one_who_was_pointed_at_is_looked_for_where_they_were_last) {
     FaceChooser chooser({.x_px = 320, .y_px = 320, .wait_frames = 3});
-    chooser.followed({Pixel(250, 300), 50});
+    chooser.followed({Pixel(280, 300), 50});
     for (int k = 0; k < 100; ++k) chooser.lost();
     EXPECT_EQ(left_of_first(chooser.candidates(group)), 300);
     EXPECT_THAT(chooser.candidates(std::vector(group.begin(), group.end() - 1)), testing::IsEmpty());
+    // A neighbour's face begins where theirs ended.
+    EXPECT_THAT(chooser.candidates(std::vector<FaceBox>{{Pixel(335, 300), 50}}), testing::IsEmpty());
+}
+
+TEST(FaceChooser, a_pixel_that_frames_do_not_have_is_refused) {
+    FaceChooser(FaceChoiceOptions{.x_px = 399, .y_px = 399}).look_at(shot(true));
+    try {
+        FaceChooser(FaceChoiceOptions{.x_px = 400, .y_px = 10}).look_at(shot(true));
+        FAIL() << "nothing was thrown";
+    } catch (const InputError& e) {
+        EXPECT_STREQ(e.what(), "x_px, y_px are 400, 10, and frames have 400 x 400 pixels; give a pixel of the frame");
+    }
+}
+
+TEST(PictureMemory, a_hidden_quarter_and_other_light_are_the_same_picture_and_a_blank_one_is_another) {
+    PictureMemory memory;
+    memory.look_at(shot(true));
+    EXPECT_FALSE(memory.is_another()) << "nothing was kept";
+    memory.keep();
+    auto hidden = shot(true);
+    for (std::size_t k = 0; k < hidden.rgb.size() / 2; ++k)
+        if (k / 3 % 400 < 200) hidden.rgb[k] = 90;
+    memory.look_at(hidden);
+    EXPECT_FALSE(memory.is_another());
+    auto darker = shot(true);
+    for (auto& value : darker.rgb) value /= 2;
+    memory.look_at(darker);
+    EXPECT_FALSE(memory.is_another());
+    auto blank = shot(true);
+    std::fill(blank.rgb.begin(), blank.rgb.end(), std::uint8_t{128});
+    memory.look_at(blank);
+    EXPECT_TRUE(memory.is_another());
+    memory.forget();
+    memory.look_at(blank);
+    EXPECT_FALSE(memory.is_another());
 }
 
 TEST(FaceChoiceOptions, half_a_pixel_and_the_zeroth_face_are_refused) {

@@ -4,68 +4,79 @@
 
 #include <gtest/gtest.h>
 
+#include "base/errors.h"
+
 namespace mimik::video {
 namespace {
 
-/// A patch of stripes, another for every width; `light` is added.
-std::vector<std::uint8_t> striped(int width_px, int light = 0) {
-    std::vector<std::uint8_t> grey;
-    for (int y = 0; y < patch_height_px; ++y)
-        for (int x = 0; x < patch_width_px; ++x)
-            grey.push_back(static_cast<std::uint8_t>(60 + light + 100 * ((x / width_px + y / width_px) % 2)));
-    return grey;
-}
-constexpr double lips = 0.4;
+constexpr auto width = static_cast<std::size_t>(patch_width_px), height = static_cast<std::size_t>(patch_height_px);
 
-TEST(FaceWatch, a_face_looks_like_itself_in_any_light) {
-    FaceWatch watch;
-    watch.learn(striped(24), lips);
-    const auto look = watch.look(striped(24, 40), lips);
-    // 1, but for the noise that is taken off: one grey level of 50.
-    EXPECT_NEAR(look.upper, 1, 0.01);
-    EXPECT_NEAR(look.mouth, 1, 0.01);
-    EXPECT_NEAR(look.lips, 1, 1e-12);
-    EXPECT_TRUE(watch.alike(look));
-    EXPECT_FALSE(watch.covered(look));
+/// A patch of dark and pale squares; `mouth` and `upper` shift those below the nose and above it by half a period.
+std::vector<std::uint8_t> patch(bool other_upper, bool other_mouth) {
+    constexpr std::size_t side = 12;
+    const auto below = static_cast<std::size_t>(patch_from_mean({0, 0.56}).y());
+    std::vector<std::uint8_t> made(width * height);
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            const bool shifted = y < below ? other_upper : other_mouth;
+            made[y * width + x] = (x / side + y / side + (shifted ? 1 : 0)) % 2 == 0 ? 60 : 180;
+        }
+    return made;
 }
 
-TEST(FaceWatch, a_blank_patch_is_not_alike_and_covers_the_mouth) {
-    FaceWatch watch;
-    watch.learn(striped(24), lips);
-    const auto look = watch.look(std::vector<std::uint8_t>(striped(24).size(), 128), 0);
-    EXPECT_NEAR(look.upper, 0, 1e-9);
-    EXPECT_FALSE(watch.alike(look));
-    EXPECT_TRUE(watch.covered(look));
-    EXPECT_FALSE(watch.accepts(look));
+TEST(FaceWatch, knows_nothing_at_first_and_takes_anybody) {
+    const FaceWatch watch;
+    EXPECT_FALSE(watch.knows());
+    EXPECT_TRUE(watch.accepts(watch.look(patch(false, false), 0.1)));
 }
 
-TEST(FaceWatch, another_face_is_taken_if_its_lips_show_unless_a_cover_was_seen) {
+TEST(FaceWatch, tells_the_face_from_another_and_a_covered_mouth_from_a_talking_one) {
     FaceWatch watch;
-    watch.learn(striped(24), lips);
-    const FaceWatch::Look other{0, 0, 0.5};
-    EXPECT_TRUE(watch.accepts(other));
-    watch.note_covered();
-    EXPECT_FALSE(watch.accepts(other));
-    EXPECT_TRUE(watch.accepts({0, 0, 0.9}));
+    watch.learn(patch(false, false), 0.2);
+    const auto same = watch.look(patch(false, false), 0.2);
+    EXPECT_GT(same.upper, 0.99);
+    EXPECT_GT(same.mouth, 0.99);
+    EXPECT_NEAR(same.lips, 1, 1e-12);  // a ratio of equal numbers
+    const auto other = watch.look(patch(true, false), 0.2);
+    EXPECT_LT(other.upper, -0.9);  // dark where it was pale
+    EXPECT_FALSE(watch.alike(other));
+    // A mouth that looks otherwise is open as long as its lips are seen; half of their contrast is enough.
+    EXPECT_FALSE(watch.covered(watch.look(patch(false, true), 0.1)));
+    EXPECT_TRUE(watch.covered(watch.look(patch(false, true), 0.01)));
+    EXPECT_FALSE(watch.covered(watch.look(patch(false, false), 0.01)));
 }
 
-TEST(FaceWatch, what_shows_little_is_taken_after_a_while_alone) {
-    FaceWatch watch;
-    watch.learn(striped(24), lips);
-    const FaceWatch::Look dim{0, 0, 0.1};
-    for (int k = 0; k <= FaceWatchOptions{}.wait_frames; ++k) {
-        EXPECT_FALSE(watch.accepts(dim)) << k;
-        watch.note_lost();
-    }
-    EXPECT_TRUE(watch.accepts(dim));
+TEST(FaceWatch, takes_somebody_else_for_clear_lips_or_after_a_while_but_never_once_a_cover_was_seen) {
+    const auto taken = [](bool covered, int lost, double lips) {
+        FaceWatch watch({.wait_frames = 10});
+        watch.learn(patch(false, false), 0.2);
+        if (covered) watch.note_covered();
+        for (int k = 0; k < lost; ++k) watch.note_lost();
+        return watch.accepts(watch.look(patch(true, false), lips));
+    };
+    EXPECT_TRUE(taken(false, 0, 0.2));
+    EXPECT_FALSE(taken(false, 10, 0.05));
+    EXPECT_TRUE(taken(false, 11, 0.05));
+    EXPECT_FALSE(taken(true, 100, 0.1));  // half the usual contrast: what a hand has now and then
+    EXPECT_TRUE(taken(true, 0, 0.19));
 }
 
-TEST(FaceWatch, who_is_forgotten_is_not_known) {
-    FaceWatch watch;
-    watch.learn(striped(24), lips);
+TEST(FaceWatch, the_usual_look_changes_slowly_and_a_new_face_is_learnt_at_once) {
+    FaceWatch watch({.newest = 0.25});
+    watch.learn(patch(false, false), 0.2);
+    watch.learn(patch(false, false), 0.4);
+    EXPECT_NEAR(watch.look(patch(false, false), 0.25).lips, 1, 1e-12);  // 0.2 and a quarter of the way to 0.4
+    watch.learn(patch(true, false), 0.1);
+    const auto now = watch.look(patch(true, false), 0.1);
+    EXPECT_GT(now.upper, 0.99);
+    EXPECT_NEAR(now.lips, 1, 1e-12);
     watch.forget();
     EXPECT_FALSE(watch.knows());
-    EXPECT_EQ(watch.look(striped(8), 0).upper, 1);
+}
+
+TEST(FaceWatchOptions, a_share_above_1_and_a_wait_below_0_are_refused) {
+    EXPECT_THROW(FaceWatch({.least_alike = 1.5}), InputError);
+    EXPECT_THROW(FaceWatch({.wait_frames = -1}), InputError);
 }
 
 }  // namespace

@@ -249,6 +249,29 @@ TEST(SeveralFaces, of_two_the_larger_is_followed_or_the_one_that_is_asked_for) {
     EXPECT_THAT(followed({.rank = 3}), testing::Each(-1));
 }
 
+TEST(SeveralFaces, the_larger_is_waited_for_and_no_neighbour_is_taken_for_them) {
+    const Group two({{0, 90, 256, 240}, {256, 60, 384, 360}});
+    const auto tracker = paper({});
+    for (int f = 0; f < 24; ++f) {
+        auto image = two.image(f);
+        const bool hidden = f >= 6 && f < 12;
+        // Something as large as a head stands before the face.
+        const auto nose = two.nose(1, f);
+        if (hidden)
+            for (int y = static_cast<int>(nose.y()) - 110; y < static_cast<int>(nose.y()) + 110; ++y)
+                std::fill_n(image.rgb.begin() + std::ptrdiff_t{3} * (y * 640 + static_cast<int>(nose.x()) - 90),
+                            3 * 180, std::uint8_t{90});
+        const auto face = tracker->next(image);
+        if (hidden && f >= 6 + most_wrong_rows) {
+            EXPECT_FALSE(face) << f;
+        }
+        if (f < 6 || f >= 12 + half_second) {
+            ASSERT_TRUE(face) << f;
+            EXPECT_EQ(two.owner(*face, f), 1U) << f;
+        }
+    }
+}
+
 TEST(SeveralFaces, of_four_one_is_followed_and_the_others_change_nothing) {
     const Group four({{0, 0, 320, 240}, {320, 0, 320, 240}, {0, 240, 320, 240}, {320, 240, 320, 240}});
     const auto nose = four.nose(2, 0);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
+#include "base/file.h"
 #include "video/video_file.h"
 
 namespace mimik::video {
@@ -45,7 +46,50 @@ TEST(VideoWriter, frames_of_two_sizes_and_other_formats_are_refused_and_nothing_
         EXPECT_THROW(writer.add(large), InputError);
     }
     EXPECT_FALSE(std::filesystem::exists(place("two.mp4")));
-    EXPECT_FALSE(std::filesystem::exists(place("two.part.mp4")));
+}
+
+TEST(RateRemark, says_by_how_much_motion_is_too_fast_where_a_camera_gives_fewer_frames_than_it_says) {
+    EXPECT_FALSE(rate_remark(300, 10, 30));
+    EXPECT_FALSE(rate_remark(291, 10, 30));  // within a twentieth
+    EXPECT_FALSE(rate_remark(10, 0.9, 30));  // too short to tell
+    EXPECT_THAT(rate_remark(120, 10, 30).value_or(""), testing::HasSubstr("gave 12.0 frames a second and says 30"));
+    EXPECT_THAT(rate_remark(120, 10, 30).value_or(""), testing::HasSubstr("2.50 times as fast"));
+}
+
+io::Image blank(int side_px) {
+    io::Image made;
+    made.width = made.height = side_px;
+    made.rgb.assign(3 * static_cast<std::size_t>(side_px) * static_cast<std::size_t>(side_px), 10);
+    return made;
+}
+
+TEST(VideoWriter, touches_no_other_file_and_leaves_none_behind) {
+    const auto folder = place("writer");
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "take.part.mp4") << "a file of the user's";
+    const auto names = [&] {
+        std::vector<std::string> found;
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) found.push_back(entry.path().filename());
+        return found;
+    };
+    {
+        VideoWriter stopped(folder / "take.mp4", 25);
+        stopped.add(blank(32));
+    }
+    EXPECT_THAT(names(), testing::ElementsAre("take.part.mp4"));
+    VideoWriter writer(folder / "take.mp4", 25);
+    writer.add(blank(32));
+    writer.finish();
+    EXPECT_EQ(base::read_text(folder / "take.part.mp4"), "a file of the user's");
+    EXPECT_EQ(VideoReader((folder / "take.mp4").string()).frames(), 1);
+}
+
+TEST(VideoWriter, a_folder_of_that_name_and_a_file_for_a_folder_are_refused_before_any_frame) {
+    std::filesystem::create_directories(place("folder.mp4"));
+    EXPECT_THROW(VideoWriter(place("folder.mp4"), 25), InputError);
+    std::ofstream(place("no_folder")) << "a file";
+    EXPECT_THROW(VideoWriter(place("no_folder") / "a.mp4", 25), InputError);
 }
 
 TEST(Landmarks68, a_row_reads_back_and_a_lost_one_has_empty_fields) {
