@@ -222,6 +222,46 @@ std::string add_photograph(figures::Panel& panel, const Face& face) {
     return {};
 }
 
+void darken_open_mouth(io::Image& photograph, const Face& face) {
+    constexpr std::size_t least_vertices = 20;  // fewer, of about 2 square millimetres each, are holes in closed lips
+    const auto& grid = face.grid;
+    const auto* right = face.landmarks.find("mouth_corner_right");
+    const auto* left = face.landmarks.find("mouth_corner_left");
+    const auto* upper = face.landmarks.find("upper_lip_outer");
+    const auto* lower = face.landmarks.find("lower_lip_outer");
+    if (!right || !left || !upper || !lower || grid.texture_coordinates.empty()) return;
+    const auto in_mouth = [&](std::uint32_t v) {
+        const Point& p = grid.vertices_mm[v];
+        return grid.inside(v) && !grid.measured(v) && p.x() > right->position_mm.x() && p.x() < left->position_mm.x() &&
+               p.y() > lower->position_mm.y() && p.y() < upper->position_mm.y();
+    };
+    std::size_t hole = 0;
+    for (std::uint32_t v = 0; v < grid.size(); ++v) hole += in_mouth(v) ? 1 : 0;
+    if (hole < least_vertices) return;
+    const auto pixel = [&](std::uint32_t v) {
+        const auto& at = grid.texture_coordinates[v];
+        return geometry::TextureCoordinate(at.x() * photograph.width, (1 - at.y()) * photograph.height);
+    };
+    const auto all = geometry::quads(grid);
+    for (std::size_t f = 0; f < all.size(); ++f) {
+        const auto corners = all[f];
+        if (std::none_of(corners.begin(), corners.end(), in_mouth)) continue;
+        geometry::TextureCoordinate first_px = pixel(corners[0]), last_px = first_px;
+        for (const auto v : corners) {
+            first_px = first_px.cwiseMin(pixel(v));
+            last_px = last_px.cwiseMax(pixel(v));
+        }
+        if ((last_px - first_px).maxCoeff() > 0.1 * photograph.width) continue;  // over a seam of the picture
+        const auto clamped = [](double at, int size) {
+            return std::clamp(static_cast<int>(std::floor(at)), 0, size - 1);
+        };
+        for (int y = clamped(first_px.y(), photograph.height); y <= clamped(last_px.y(), photograph.height); ++y)
+            for (int x = clamped(first_px.x(), photograph.width); x <= clamped(last_px.x(), photograph.width); ++x)
+                std::copy(animation::inside_colour.begin(), animation::inside_colour.end(),
+                          photograph.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * photograph.width + x));
+    }
+}
+
 figures::MarkerSet landmark_markers(const geometry::Landmarks& landmarks) {
     figures::MarkerSet set{.name = "landmarks"};
     for (const auto& mark : landmarks.all()) set.positions_mm.push_back(mark.position_mm);

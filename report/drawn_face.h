@@ -50,6 +50,10 @@ void letter_panels(figures::Figure& page);
 /// else why it is shown without.
 std::string add_photograph(figures::Panel& panel, const preprocessing::Face& face);
 
+/// Makes a photograph dark where it shows an open mouth, that is a hole of the scan between the lips: there it holds
+/// whatever lay behind the face. A face without the landmarks of a mouth, or with closed lips, is left as it is.
+void darken_open_mouth(io::Image& photograph, const preprocessing::Face& face);
+
 /// The landmarks as the thesis shows them, in blue.
 [[nodiscard]] figures::MarkerSet landmark_markers(const geometry::Landmarks& landmarks);
 /// The muscle points in red and the wrinkle points in orange, of those that there are.

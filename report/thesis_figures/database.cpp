@@ -19,7 +19,10 @@ figures::Panel photographed(const FigureCast& cast, const preprocessing::Face& f
                             std::string caption, std::vector<std::string>& remarks) {
     auto panel = face_panel(drawn_surface(face.grid, cast.options().holes, face.neutral_from_scan), centre_mm,
                             std::move(caption));
-    if (const auto reason = add_photograph(panel, face); !reason.empty()) remarks.push_back(reason);
+    if (const auto reason = add_photograph(panel, face); !reason.empty())
+        remarks.push_back(reason);
+    else
+        darken_open_mouth(*panel.texture, face);
     return panel;
 }
 

@@ -83,6 +83,46 @@ TEST(DrawnFaces, scraps_that_hang_on_nothing_are_left_out_of_the_largest_part) {
     EXPECT_TRUE(largest_part(geometry::Mesh{}).vertices_mm.empty());
 }
 
+TEST(DrawnFaces, a_photograph_is_dark_in_an_open_mouth_and_untouched_elsewhere) {
+    preprocessing::Face face;
+    auto& grid = face.grid;
+    grid.rows = grid.cols = 20;
+    for (int row = 0; row < 20; ++row)
+        for (int col = 0; col < 20; ++col) {
+            grid.vertices_mm.emplace_back(col, row, 0);
+            grid.texture_coordinates.emplace_back((col + 0.5) / 20, (row + 0.5) / 20);
+        }
+    grid.origin.assign(400, geometry::VertexOrigin::measured);
+    const auto hole = [&](int first_row, int rows) {
+        for (int row = first_row; row < first_row + rows; ++row)
+            for (int col = 7; col < 13; ++col) grid.origin[grid.index(row, col)] = geometry::VertexOrigin::bridged;
+    };
+    hole(4, 4);   // between the lips
+    hole(14, 4);  // an eye
+    face.landmarks = geometry::Landmarks({{"mouth_corner_right", {3, 6, 0}, ""},
+                                          {"mouth_corner_left", {16, 6, 0}, ""},
+                                          {"upper_lip_outer", {10, 10, 0}, ""},
+                                          {"lower_lip_outer", {10, 2, 0}, ""}});
+    io::Image photograph{20, 20, std::vector<std::uint8_t>(1200, 200)};
+    darken_open_mouth(photograph, face);
+    // A pixel per vertex, row 0 of the grid is the picture's last; the quads that touch the hole are painted.
+    int dark = 0;
+    for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 20; ++x) {
+            const bool is_dark = photograph.rgb[static_cast<std::size_t>(3 * (20 * y + x))] < 100;
+            dark += is_dark ? 1 : 0;
+            if (is_dark) {
+                EXPECT_TRUE(x >= 6 && x <= 13 && 19 - y >= 3 && 19 - y <= 8) << x << " " << y;
+            }
+        }
+    EXPECT_EQ(dark, 8 * 6);
+    for (int row = 5; row < 8; ++row)  // a hole of six vertices is no open mouth
+        for (int col = 7; col < 13; ++col) grid.origin[grid.index(row, col)] = geometry::VertexOrigin::measured;
+    io::Image closed{20, 20, std::vector<std::uint8_t>(1200, 200)};
+    darken_open_mouth(closed, face);
+    EXPECT_EQ(closed.rgb, std::vector<std::uint8_t>(1200, 200));
+}
+
 class FiguresOfAWorkspace : public test::WorkspaceTest<FiguresOfAWorkspace> {
 protected:
     static NamedFigureOptions two_people() {
@@ -140,6 +180,37 @@ TEST_F(FiguresOfAWorkspace, a_control_point_is_greater_than_a_landmark_that_it_m
         // Both are marked to half a millimetre, so a landmark may stand out by that.
         EXPECT_GT(panel.markers[1].radius_mm, panel.markers[0].radius_mm + 0.5);
     }
+}
+
+TEST_F(FiguresOfAWorkspace, what_differs_is_captioned_otherwise_and_nobody_is_called_real) {
+    const FigureCast cast = cast_of(two_people());
+    const auto normalised = named_figure("5-6").build(cast).picture;
+    std::set<std::string> captions;
+    std::size_t panels = 0;
+    for (const auto& panel : normalised.panels) {
+        if (panel.mesh.vertices_mm.empty()) continue;
+        captions.insert(panel.caption);
+        ++panels;
+    }
+    EXPECT_EQ(captions.size(), panels);
+    EXPECT_NE(named_figure("heat-map").build(cast).picture.title,
+              named_figure("heat-map-signed").build(cast).picture.title);
+    // A database that says nothing of its faces may hold modelled heads.
+    const auto page = named_figure("6-2").build(cast);
+    EXPECT_EQ(page.picture.panels[2].caption, "(c) Scan of the source face bs000");
+    EXPECT_THAT(page.caption, testing::Not(HasSubstr("real")));
+}
+
+TEST_F(FiguresOfAWorkspace, landmarks_are_numbered_in_the_order_of_the_list) {
+    const auto caption = named_figure("5-2").build(cast_of(two_people())).caption;
+    std::size_t last = 0;
+    for (const auto name : geometry::standard_landmark_names()) {
+        const auto at = caption.find(std::string(" ") + std::string(name));
+        if (at == std::string::npos) continue;
+        EXPECT_GT(at, last) << name;
+        last = at;
+    }
+    EXPECT_GT(last, 0U);
 }
 
 TEST_F(FiguresOfAWorkspace, an_expression_that_nobody_has_is_named_and_the_rest_is_made) {

@@ -3,7 +3,8 @@
 import {unpackBytes, unpackPoints, unpackSteps} from './face_buffers.js';
 
 const bridged = 2, upperLip = 1, lowerLip = 2;
-const partedMm = 1.5;  // as animation/animate.h: torn_lips()
+const partedMm = 1.5;  // as animation/torn_faces.h
+const alsoPartedMm = 0.5;  // beside what is torn
 
 /** A gridded surface: positions in mm, corners of triangles, and which vertices bridge a hole. */
 async function unpackGrid(grid, stepMm) {
@@ -87,18 +88,35 @@ export class Face {
   }
 }
 
-/** Lips that part leave no surface between them. */
+/** Lips that part leave no surface between them: as animation/torn_faces.h, one opening with whole borders. */
 function withoutTorn(triangles, lips, displacement) {
   if (!lips) return triangles;
-  const apart = (a, b) => lips[a] === upperLip && lips[b] === lowerLip &&
-    Math.hypot(...[0, 1, 2].map(axis => displacement[3 * a + axis] - displacement[3 * b + axis])) > partedMm;
-  const kept = [];
-  for (let t = 0; t < triangles.length; t += 3) {
-    const corners = triangles.subarray(t, t + 3);
-    const sides = lips[corners[0]] | lips[corners[1]] << 2 | lips[corners[2]] << 4;
-    if (sides !== 0 && [...corners].some(a => [...corners].some(b => apart(a, b)))) continue;
-    kept.push(...corners);
+  const parting = (a, b) => (lips[a] === upperLip && lips[b] === lowerLip
+    ? Math.hypot(...[0, 1, 2].map(axis => displacement[3 * a + axis] - displacement[3 * b + axis])) : 0);
+  const torn = new Uint8Array(triangles.length / 3), atOpening = new Uint8Array(lips.length);
+  let mayFollow = [];
+  const tear = t => {
+    torn[t] = 1;
+    for (const v of triangles.subarray(3 * t, 3 * t + 3)) atOpening[v] = 1;
+  };
+  for (let t = 0; t < torn.length; ++t) {
+    const corners = triangles.subarray(3 * t, 3 * t + 3);
+    if (!corners.some(v => lips[v] === upperLip) || !corners.some(v => lips[v] === lowerLip)) continue;
+    let widest = 0;
+    for (const a of corners) for (const b of corners) widest = Math.max(widest, parting(a, b));
+    if (widest > partedMm) tear(t);
+    else if (widest > alsoPartedMm) mayFollow.push(t);
   }
+  for (let left = -1; left !== mayFollow.length;) {
+    left = mayFollow.length;
+    mayFollow = mayFollow.filter(t => {
+      if (!triangles.subarray(3 * t, 3 * t + 3).some(v => atOpening[v] === 1)) return true;
+      tear(t);
+      return false;
+    });
+  }
+  const kept = [];
+  for (let t = 0; t < torn.length; ++t) if (!torn[t]) kept.push(...triangles.subarray(3 * t, 3 * t + 3));
   return Uint32Array.from(kept);
 }
 
