@@ -7,6 +7,7 @@
 #include "animation/inner_parts.h"
 #include "animation/mesh_lips.h"
 #include "animation/rim_motion.h"
+#include "modeling/skin_turn.h"
 #include "preprocessing/kept_registrations.h"
 
 namespace mimik::animation {
@@ -33,8 +34,9 @@ struct TemplatePlaces {
     std::vector<TemplatePlace> of_vertices;  ///< of those that move
     std::vector<PlaceBeyondRim> beyond_rim;  ///< likewise; no vertex is in both
     std::vector<preprocessing::LipSide> lip_sides;
-    InnerParts inner;            ///< of somebody's mesh; a scan has none
-    std::vector<Point> bent_mm;  ///< the template on the target
+    InnerParts inner;                       ///< of somebody's mesh; a scan has none
+    std::vector<Point> bent_mm;             ///< the template on the target
+    std::vector<Eigen::Quaterniond> turns;  ///< of its skin, from the template's own
 };
 
 /// 1 on the template, 0 beyond the fade, smooth between.
@@ -175,6 +177,7 @@ TemplatePlaces locate(const PreparedTarget& target, const KeptRegistrations& reg
     put_beyond_rim(places, vertices, index, hits, face_template);
     std::erase_if(places.of_vertices, [](const TemplatePlace& place) { return place.weights.isZero(0); });
     places.bent_mm.assign(index.vertices_mm().begin(), index.vertices_mm().end());
+    places.turns = modeling::skin_turns(face_template, face_template.surface.vertices_mm, places.bent_mm);
     return places;
 }
 
@@ -200,6 +203,14 @@ Vector chin_motion(const modeling::TemplateMotion& dense) {
             ++count;
         }
     return count > 0 ? Vector(sum / count) : sum;
+}
+
+/// The motion of the template's vertices on a target, average frame.
+std::vector<Vector> motion_on(const TemplatePlaces& places, const modeling::TemplateMotion& dense) {
+    auto motion_mm = dense.motion_mm;
+    if (!dense.follows_skin) return motion_mm;
+    for (std::size_t v = 0; v < motion_mm.size(); ++v) motion_mm[v] = places.turns[v] * motion_mm[v];
+    return motion_mm;
 }
 
 void move_inner_parts(geometry::DisplacementField& field, const PreparedTarget& target, const InnerParts& inner,
@@ -232,15 +243,16 @@ geometry::DisplacementField dense_field(const PreparedTarget& target, const mode
     auto field = geometry::DisplacementField::still(target.surface().size());
     field.answered = target.surface().present;
     const auto& places = places_on(target, dense.registrations);
+    const auto motion_mm = motion_on(places, dense);
     for (const auto& place : places.of_vertices) {
         Vector motion = Vector::Zero();
         for (std::size_t c = 0; c < 3; ++c)
-            motion += place.weights[static_cast<Eigen::Index>(c)] * dense.motion_mm[place.corners[c]];
+            motion += place.weights[static_cast<Eigen::Index>(c)] * motion_mm[place.corners[c]];
         field.mm[place.vertex] = target_from_average * motion;
     }
     for (const auto& place : places.beyond_rim) {
         Vector motion = Vector::Zero();
-        for (const auto& [vertex, share] : place.shares) motion += share * dense.motion_mm[vertex];
+        for (const auto& [vertex, share] : place.shares) motion += share * motion_mm[vertex];
         field.mm[place.vertex] = target_from_average * motion;
     }
     move_inner_parts(field, target, places.inner, dense, target_from_average);

@@ -270,7 +270,11 @@ ExpressionModel ExpressionGauge::measure(const Face& neutral, const Face& expres
     NormalisedSource source(neutral, expressive, options_);
     auto model = measure(source, followed);
     if (registrations_) {
-        model.dense = {registrations_, registrations_->motion(neutral, expressive).motion_mm};
+        // Spread points are carried by splines, which know no skin.
+        if (options_.spread_points > 0)
+            model.dense = {registrations_, registrations_->motion(neutral, expressive).motion_mm};
+        else
+            model.dense = motion_on_template(registrations_, neutral, expressive);
         if (expressive.id.side() == facs::Side::both) keep_side(*model.dense, expression_);
         if (options_.spread_points > 0) keep_spread_points(model);
     }
@@ -372,7 +376,8 @@ void ExpressionMean::add(const ExpressionModel& model) {
                 fmt::format("{}: models of {} and {} stand on different faces; model them on the average face",
                             sum.expression.name(), sum.sources.front(), model.sources.front()));
     if (sum.dense.has_value() != model.dense.has_value() ||
-        (sum.dense && sum.dense->motion_mm.size() != model.dense->motion_mm.size()))
+        (sum.dense && (sum.dense->motion_mm.size() != model.dense->motion_mm.size() ||
+                       sum.dense->follows_skin != model.dense->follows_skin)))
         throw InputError(fmt::format("{}: models of {} and {} stand on different templates; model them anew",
                                      sum.expression.name(), sum.sources.front(), model.sources.front()));
     if (sum.dense)

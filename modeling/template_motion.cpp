@@ -5,6 +5,7 @@
 
 #include "base/errors.h"
 #include "io/json_values.h"
+#include "modeling/skin_turn.h"
 #include "modeling/template_motion_json.h"
 #include "preprocessing/kept_registrations.h"
 
@@ -108,6 +109,15 @@ FaceTemplate template_from_json(const json& document) {
 
 const FaceTemplate& TemplateMotion::face_template() const { return registrations->face_template(); }
 
+TemplateMotion motion_on_template(const std::shared_ptr<const preprocessing::KeptRegistrations>& registrations,
+                                  const preprocessing::Face& neutral, const preprocessing::Face& expressive) {
+    TemplateMotion dense{registrations, registrations->motion(neutral, expressive).motion_mm, true};
+    const auto turns = skin_turns(dense.face_template(), registrations->neutral(neutral).vertices_mm,
+                                  dense.face_template().surface.vertices_mm);
+    for (std::size_t v = 0; v < turns.size(); ++v) dense.motion_mm[v] = turns[v] * dense.motion_mm[v];
+    return dense;
+}
+
 void keep_side(TemplateMotion& dense, const facs::Expression& expression) {
     constexpr double blend_mm = 20.0;
     const auto units = expression.units();
@@ -145,13 +155,15 @@ json template_motion_to_json(const TemplateMotion& dense) {
               {"upper_lip_line", made.upper_lip_line},
               {"lower_lip_line", made.lower_lip_line},
               {"bound_landmarks", bound}}},
-            {"motion_mm", to_json(dense.motion_mm)}};
+            {"motion_mm", to_json(dense.motion_mm)},
+            {"follows_skin", dense.follows_skin}};
 }
 
 TemplateMotion template_motion_from_json(const json& document) {
     TemplateMotion dense;
     auto made = io::read_field(document, "template", template_from_json);
     dense.motion_mm = vectors_from_json(document, "motion_mm");
+    dense.follows_skin = document.value("follows_skin", false);  // models of before do not say it
     if (dense.motion_mm.size() != made.size())
         throw InputError(
             fmt::format("motion_mm has {} vectors, the template {} vertices", dense.motion_mm.size(), made.size()));

@@ -5,6 +5,7 @@
 
 #include "facs/expression.h"
 #include "geometry/types.h"
+#include "preprocessing/face.h"
 #include "preprocessing/face_template.h"
 
 namespace mimik::preprocessing {
@@ -20,9 +21,16 @@ struct TemplateMotion {
     std::shared_ptr<const preprocessing::KeptRegistrations> registrations;
 
     std::vector<geometry::Vector> motion_mm;  ///< per vertex of the template, average frame, at magnitude 1
+    /// The motion is that of the template's own skin: on a face it turns with the skin there (skin_turns).
+    bool follows_skin = false;
 
     [[nodiscard]] const preprocessing::FaceTemplate& face_template() const;
 };
+
+/// What one person shows, on the template: a motion that follows the skin. @throws as KeptRegistrations::motion.
+[[nodiscard]] TemplateMotion motion_on_template(
+    const std::shared_ptr<const preprocessing::KeptRegistrations>& registrations, const preprocessing::Face& neutral,
+    const preprocessing::Face& expressive);
 
 /// Of a scan that shows both sides, an expression of one side takes that alone: smooth over 20 mm about the mid-line.
 void keep_side(TemplateMotion& dense, const facs::Expression& expression);

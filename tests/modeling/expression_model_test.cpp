@@ -387,6 +387,7 @@ TEST_F(ExpressionModelTest, a_dense_model_reads_back_to_the_last_bit_and_its_mea
     const auto again = decode_expression_model(encode_expression_model(first), "again");
     ASSERT_TRUE(again.dense);
     EXPECT_EQ(again.dense->motion_mm, first.dense->motion_mm);
+    EXPECT_TRUE(again.dense->follows_skin);
     const auto &made = first.dense->face_template(), &read = again.dense->face_template();
     EXPECT_EQ(read.surface.vertices_mm, made.surface.vertices_mm);
     EXPECT_EQ(read.surface.triangles, made.surface.triangles);
