@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -171,6 +172,28 @@ geometry::DisplacementField sparse_field(const PreparedTarget& target, const Exp
     return field;
 }
 
+/// An AU of the upper face moves the upper face: from the wings of the nose down to the upper lip its motion fades to
+/// none. What a scan shows there is a mouth that was held otherwise, or an error of the fit; either would part closed
+/// lips. Of a face without the landmarks nothing is faded.
+void keep_mouth_still(const geometry::FaceSurface& surface, geometry::DisplacementField& field) {
+    const auto middle = [&](const char* left, const char* right) -> std::optional<Point> {
+        const auto *a = surface.landmarks.find(left), *b = surface.landmarks.find(right);
+        if (!a || !b) return std::nullopt;
+        return Point(0.5 * (a->position_mm + b->position_mm));
+    };
+    const auto wings = middle("nose_wing_left", "nose_wing_right"), eyes = middle("eye_outer_left", "eye_outer_right");
+    const auto lip = middle("upper_lip_outer", "upper_lip_outer"), chin = middle("chin", "chin");
+    if (!wings || !eyes || !lip || !chin) return;
+    const Vector up = (*eyes - *chin).normalized();
+    const double high = up.dot(*wings), low = up.dot(*lip);
+    if (!(high > low)) return;
+    for (std::size_t v = 0; v < surface.size(); ++v) {
+        if (!surface.present[v]) continue;
+        const double t = std::clamp((up.dot(surface.vertices_mm[v]) - low) / (high - low), 0.0, 1.0);
+        field.mm[v] *= t * t * (3 - 2 * t);
+    }
+}
+
 }  // namespace
 
 geometry::DisplacementField expression_field(const PreparedTarget& target, const ExpressionModel& model,
@@ -182,6 +205,7 @@ geometry::DisplacementField expression_field(const PreparedTarget& target, const
     if (model.dense && points) (void)carry(target, model, options, points, nullptr);
     auto field =
         model.dense ? dense_field(target, *model.dense) : sparse_field(target, model, options, points, remarks);
+    if (model.dense && model.moves_upper_face && !model.moves_lower_face) keep_mouth_still(target.surface(), field);
     if (options.lids) slide_lids(target, model.expression, field, remarks);
     for (std::size_t v = 0; v < keep.size(); ++v) field.mm[v] *= keep[v];
     return field;

@@ -56,6 +56,25 @@ TEST_F(DenseField, a_dense_model_fades_to_nothing_beyond_the_face) {
     EXPECT_GT(most, 3.0);  // half of the smile
 }
 
+TEST_F(DenseField, an_expression_of_the_upper_face_holds_the_mouth_still_whatever_its_scan_did) {
+    // The scan smiles, and is said to be of AU 4.
+    const auto frown = smile(modeling::ModelOptions{}, "4");
+    ASSERT_TRUE(frown.moves_upper_face && !frown.moves_lower_face);
+    const PreparedTarget target(target_->neutral);
+    const auto all = dense_field(target, *frown.dense);
+    const auto field = expression_field(target, frown, {});
+    const auto& surface = target.surface();
+    const double lip_y = surface.landmarks.position_mm("upper_lip_outer").y();
+    double before = 0, after = 0;
+    for (std::size_t v = 0; v < field.size(); ++v) {
+        if (!surface.present[v] || surface.vertices_mm[v].y() > lip_y - 5) continue;  // the scan may lean
+        before = std::max(before, all.mm[v].norm());
+        after = std::max(after, field.mm[v].norm());
+    }
+    EXPECT_GT(before, 1.0);
+    EXPECT_EQ(after, 0.0);
+}
+
 TEST_F(DenseField, one_side_of_a_smile_leaves_the_other_corner_still) {
     const auto dense = smile(modeling::ModelOptions{}, "12L");
     const auto field = dense_field(PreparedTarget(target_->neutral), *dense.dense);
