@@ -498,7 +498,9 @@ TEST_F(ExpressionModelTest, spread_points_lie_apart_in_the_zone_and_move_as_the_
         const auto& rest = dense.dense->face_template().surface.vertices_mm;
         const auto v = static_cast<std::size_t>(std::find(rest.begin(), rest.end(), point.position_mm) - rest.begin());
         ASSERT_LT(v, rest.size());
-        EXPECT_EQ(point.displacement_mm, dense.dense->motion_mm[v]);
+        // Spread points do not turn with the skin. Here it is turned by less than a degree.
+        const Vector& motion = dense.dense->motion_mm[v];
+        EXPECT_LE((point.displacement_mm - motion).norm(), 0.018 * motion.norm());
     }
     ASSERT_EQ(places.size(), 60U);
     double nearest = 1e9;
