@@ -64,6 +64,7 @@ public:
         std::map<HalfEdge, std::uint32_t> made;
         for (const auto& face : dark_) {
             std::vector<std::uint32_t> corners;
+            corners.reserve(face.size());
             for (const auto& edge : face) corners.push_back(vertex(made, edge, behind_mm));
             surface_.mesh.faces.add(corners);
         }
