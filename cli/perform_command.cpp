@@ -351,6 +351,7 @@ int run(const Arguments& arguments) {
     std::vector<std::filesystem::path> folders = {arguments.examples};
     folders.insert(folders.end(), arguments.beside.begin(), arguments.beside.end());
     std::vector<Act> acts;
+    acts.reserve(folders.size());
     for (const auto& folder : folders) acts.push_back(act_of(arguments, table, folder, picture_size));
     auto remarks = remarks_of(arguments, table, acts);
     auto& outcome = acts.front().outcome;
