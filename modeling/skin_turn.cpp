@@ -4,15 +4,15 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "geometry/rigid_fit.h"
 
 namespace mimik::modeling {
 
 using geometry::Point;
-using geometry::Vector;
 
 namespace {
 
@@ -20,23 +20,15 @@ namespace {
 Eigen::Quaterniond turn_about(std::size_t node, std::span<const Point> from_mm, std::span<const Point> to_mm,
                               double width_mm) {
     constexpr std::size_t sample_stride = 8;
-    double weights = 0;
-    Vector from_sum = Vector::Zero(), to_sum = Vector::Zero();
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+    std::vector<Point> from, to;
+    std::vector<double> weights;
     for (std::size_t k = 0; k < from_mm.size(); k += sample_stride) {
-        const Vector a = from_mm[k] - from_mm[node], b = to_mm[k] - to_mm[node];
-        const double weight = std::exp(-0.5 * a.squaredNorm() / (width_mm * width_mm));
-        weights += weight;
-        from_sum += weight * a;
-        to_sum += weight * b;
-        products += weight * b * a.transpose();
+        from.push_back(from_mm[k]);
+        to.push_back(to_mm[k]);
+        weights.push_back(std::exp(-0.5 * (from_mm[k] - from_mm[node]).squaredNorm() / (width_mm * width_mm)));
     }
-    if (!(weights > 1e-12)) return Eigen::Quaterniond::Identity();
-    products -= to_sum * from_sum.transpose() / weights;
-    const Eigen::JacobiSVD<Eigen::Matrix3d> parts(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
-    if ((parts.matrixU() * parts.matrixV().transpose()).determinant() < 0) sign(2, 2) = -1;
-    return Eigen::Quaterniond(Eigen::Matrix3d(parts.matrixU() * sign * parts.matrixV().transpose()));
+    const auto fit = geometry::rigid_fit(from, to, weights);
+    return fit ? Eigen::Quaterniond(fit->linear()) : Eigen::Quaterniond::Identity();
 }
 
 /// Turns at some vertices, and between them.
